@@ -1,0 +1,37 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "tools/cli/run_options.h"
+
+namespace hoof::tools {
+
+enum class Experiment { kSinkage, kTraction };
+
+/// The flags of `hoof sinkage` and `hoof traction`. A field left empty was not given, and the
+/// settings' own default holds. Values are checked as they are parsed: a CLI::ValidationError
+/// names flag, value and bound.
+struct ExperimentOptions {
+  RunOptions run;
+  std::string foot;       ///< bionic, bionic-plain, traditional or a path ending in .stl
+  std::string load;       ///< "40" or "40kg": a mass; "400N": a force
+  std::string load_as;    ///< force or mass: how the load acts on the foot
+  std::string speed;      ///< m/s, downward at first contact (sinkage)
+  std::string frequency;  ///< Hz, of the stance ellipse (traction)
+  std::string toe;        ///< degrees per side, 0..40
+  std::string bed;        ///< preset demo, bench, paper, or a file
+  std::string terrain;    ///< dem or rigid
+  std::string drive;      ///< firmware or prescribed
+  std::string bus;        ///< CAN interface such as vcan0; not given: the in-process bus
+};
+
+/// Adds the flags that `experiment` has, and the run flags, to `command`.
+void add_experiment_options(CLI::App& command, ExperimentOptions& options, Experiment experiment);
+
+/// The flags as settings, "experiment.toe_deg=30": in the order above, those of --set last, so
+/// that a later entry wins. Text values are TOML strings, quoted and escaped.
+std::vector<std::string> settings_overrides(const ExperimentOptions& options);
+
+}  // namespace hoof::tools

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hoof::tools {
+
+/// Flags that every command which makes a run folder has.
+struct RunOptions {
+  std::filesystem::path out;  ///< empty: runs/<experiment>-<date>-<n>
+  bool force = false;         ///< replace an earlier run folder of the same name
+  std::optional<std::uint64_t> seed;
+  std::optional<int> threads;
+  std::vector<std::string> settings;  ///< each "key=value", as given by --set
+  bool live = false;                  ///< telemetry over LCM while running
+  bool quiet = false;                 ///< no progress
+};
+
+/// Adds --out --force --seed --threads --set --live --quiet to `command`.
+void add_run_options(CLI::App& command, RunOptions& options);
+
+}  // namespace hoof::tools

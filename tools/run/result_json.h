@@ -1,0 +1,13 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+namespace hoof::tools {
+
+/// Writes result.json: keys in the order they were put, two blanks of indent, shortest numbers
+/// that read back exactly. JSON has no not-a-number and nlohmann would write null in its place,
+/// so a value that is not finite throws CannotFinish, which names its key.
+void write_result_json(const std::filesystem::path& path, const nlohmann::ordered_json& result);
+
+}  // namespace hoof::tools
