@@ -1,0 +1,206 @@
+// The message dictionary: every frame on both buses, once. Codecs, hoof.dbc, the protocol hash and
+// the worst-case bus load are all computed from the tables in this file; scale factors exist here
+// and nowhere else.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "firmware/protocol/drive_ranges.h"
+#include "firmware/protocol/signal.h"
+
+namespace hoof::firmware::protocol {
+
+// ---- named values -------------------------------------------------------------------------------
+
+inline constexpr ValueName kModeNames[] = {{0, "off"},     {1, "homing"},      {2, "ready"},
+                                           {3, "running"}, {4, "damped_stop"}, {5, "emergency_off"},
+                                           {6, "fault"}};
+
+inline constexpr ValueName kOrderNames[] = {
+    {0, "stop"}, {1, "ready"}, {2, "run"}, {3, "reset"}, {4, "release"}};
+
+inline constexpr ValueName kOrderResultNames[] = {
+    {0, "accepted"},      {1, "bad_crc"},      {2, "bad_counter"}, {3, "not_owner"},
+    {4, "unknown_order"}, {5, "out_of_range"}, {6, "wrong_mode"},  {7, "no_leg"}};
+
+/// Error byte of the AK family's reply.
+inline constexpr ValueName kDriveErrorNames[] = {{0, "none"},
+                                                 {1, "motor_over_temperature"},
+                                                 {2, "over_current"},
+                                                 {3, "over_voltage"},
+                                                 {4, "under_voltage"},
+                                                 {5, "encoder"},
+                                                 {6, "mosfet_over_temperature"},
+                                                 {7, "motor_stalled"}};
+
+/// Bits of `faults` in the heartbeat. Ranges: 0-3 communication, 4-7 drives, 8-11 motion,
+/// 12-15 orders and the firmware itself.
+inline constexpr ValueName kFaultBitNames[] = {
+    {0, "sync_lost"},         {1, "drive_lost"},        {2, "bus_off"},
+    {4, "drive_error"},       {5, "implausible_reply"}, {6, "over_temperature"},
+    {8, "homing_failed"},     {9, "toe_jammed"},        {10, "outside_travel"},
+    {11, "path_unreachable"}, {12, "emergency_stop"},   {13, "invalid_wish"}};
+
+/// Bits of `active_limits` and of the three gate bytes.
+inline constexpr ValueName kLimitBitNames[] = {{0, "torque"},  {1, "torque_rate"}, {2, "distance"},
+                                               {3, "travel"},  {4, "velocity"},    {5, "gain"},
+                                               {6, "refused"}, {7, "latched"}};
+
+// ---- signals ------------------------------------------------------------------------------------
+
+inline constexpr Signal kEmergencyStopSignals[] = {
+    number("source", 0, 8, "Who pressed; the stop acts on the identifier alone, whatever follows")};
+
+inline constexpr Signal kSyncSignals[] = {
+    number("tick", 0, 32, "Number of the control tick; one millisecond of control time each")};
+
+constexpr std::array<Signal, 5> command_signals(const DriveRange& r) {
+  return {spread("position_rad", 0, 16, -r.position_rad, r.position_rad, "rad", "Desired angle"),
+          spread("velocity_rad_s", 16, 12, -r.velocity_rad_s, r.velocity_rad_s, "rad/s",
+                 "Desired speed"),
+          spread("kp_Nm_rad", 28, 12, 0.0f, r.kp_Nm_rad, "Nm/rad", "Stiffness"),
+          spread("kd_Nm_s_rad", 40, 12, 0.0f, r.kd_Nm_s_rad, "Nm s/rad", "Damping"),
+          spread("torque_Nm", 52, 12, -r.torque_Nm, r.torque_Nm, "Nm",
+                 "Feed-forward; an even number of codes, so no code is exactly zero")};
+}
+
+constexpr std::array<Signal, 6> reply_signals(const DriveRange& r) {
+  return {number("drive_id", 0, 8, "1 toe, 2 hip, 3 knee"),
+          spread("position_rad", 8, 16, -r.position_rad, r.position_rad, "rad", "Measured angle"),
+          spread("velocity_rad_s", 24, 12, -r.velocity_rad_s, r.velocity_rad_s, "rad/s",
+                 "Measured speed"),
+          spread("torque_Nm", 36, 12, -r.torque_Nm, r.torque_Nm, "Nm", "Torque by motor current"),
+          stepped("temperature_C", 48, 8, 1.0f, -40.0f, "degC", "Motor winding"),
+          number("error", 56, 8, "Drive fault code", kDriveErrorNames)};
+}
+
+inline constexpr std::array<std::array<Signal, 5>, kDriveCount> kCommandSignals{
+    command_signals(kDriveRanges[0]), command_signals(kDriveRanges[1]),
+    command_signals(kDriveRanges[2])};
+inline constexpr std::array<std::array<Signal, 6>, kDriveCount> kReplySignals{
+    reply_signals(kDriveRanges[0]), reply_signals(kDriveRanges[1]), reply_signals(kDriveRanges[2])};
+
+inline constexpr Signal kSupervisorOrderSignals[] = {
+    number("supervisor_id", 0, 8, "Who orders, 1 to 255; 0 is nobody and refused"),
+    number("order", 8, 8, "What to do", kOrderNames),
+    stepped("toe_angle_rad", 16, 16, 1e-4f, 0.0f, "rad", "Opening angle of each toe"),
+    stepped("frequency_Hz", 32, 16, 1e-3f, 0.0f, "Hz", "Cycles of the stance path per second"),
+    number("counter", 48, 8, "Must be the expected one, told in every acknowledge"),
+    number("crc", 56, 8, "CRC-8")};
+
+inline constexpr Signal kOrderAcknowledgeSignals[] = {
+    number("supervisor_id", 0, 8, "Whose order is answered"),
+    number("counter", 8, 8, "Counter of the order answered"),
+    number("result", 16, 8, "What became of it", kOrderResultNames),
+    number("mode", 24, 8, "Mode at that moment", kModeNames),
+    number("expected_counter", 32, 8, "Counter that the next order must carry"),
+    number("owner_id", 40, 8, "Supervisor that owns the foot; 0 nobody"),
+    number("reserved", 48, 8, "0"),
+    number("crc", 56, 8, "CRC-8")};
+
+inline constexpr Signal kHeartbeatSignals[] = {
+    number("mode", 0, 8, "Mode", kModeNames),
+    number("faults", 8, 16, "OR of all latched faults, a bit each (kFaultBitNames)"),
+    number("active_limits", 24, 8, "OR of the limits clipping now (kLimitBitNames)"),
+    number("protocol_hash", 32, 32, "Hash of this dictionary; another one: refuse to talk")};
+
+inline constexpr Signal kFootToeSignals[] = {
+    stepped("commanded_rad", 0, 16, 1e-4f, -3.0f, "rad", "Opening angle ordered now"),
+    stepped("measured_rad", 16, 16, 1e-4f, -3.0f, "rad", "Opening angle measured"),
+    stepped("torque_Nm", 32, 16, 1e-3f, -32.768f, "Nm", "Toe drive torque measured"),
+    stepped("temperature_C", 48, 8, 1.0f, -40.0f, "degC", "Toe drive"),
+    number("moving", 56, 8, "1 while a move is under way")};
+
+inline constexpr Signal kFootLegSignals[] = {
+    stepped("hip_rad", 0, 16, 1e-4f, -3.2768f, "rad", "Thigh from straight down, forward +"),
+    stepped("knee_rad", 16, 16, 1e-4f, -3.2768f, "rad", "Shank against thigh, forward +"),
+    stepped("foot_x_m", 32, 16, 1e-4f, -3.2768f, "m", "Sole point ahead of the hip"),
+    stepped("foot_z_m", 48, 16, 1e-4f, -3.2768f, "m", "Sole point above the level sand")};
+
+inline constexpr Signal kFootGroundSignals[] = {
+    stepped("phase_cycles", 0, 16, 1.0f / 65536.0f, 0.0f, "", "Place on the stance path"),
+    stepped("sinkage_m", 16, 16, 1e-5f, 0.0f, "m", "Estimate: depth below the touch-down height"),
+    stepped("force_x_N", 32, 12, 1.0f, -2048.0f, "N", "Estimate: sand on foot, forward +"),
+    stepped("force_z_N", 44, 12, 1.0f, -1024.0f, "N", "Estimate: sand on foot, up +"),
+    number("contact", 56, 8, "1 while the foot touches")};
+
+inline constexpr Signal kFootGateSignals[] = {
+    number("interventions", 0, 32, "Joint commands changed or refused by the gate since start"),
+    number("toe_limits", 32, 8, "Why, now (kLimitBitNames)"),
+    number("hip_limits", 40, 8, "Why, now (kLimitBitNames)"),
+    number("knee_limits", 48, 8, "Why, now (kLimitBitNames)"), number("reserved", 56, 8, "0")};
+
+inline constexpr Signal kFootCountersSignals[] = {
+    number("ticks", 0, 32, "Control ticks since start"),
+    number("bad_frames", 32, 16, "Unknown, short, long or malformed frames, modulo 65536"),
+    number("missed_ticks", 48, 16, "SYNC numbers that never came, modulo 65536")};
+
+// ---- messages -----------------------------------------------------------------------------------
+
+/// Position of each message in `kMessages`.
+enum class Message : std::uint8_t {
+  kEmergencyStop = 0,
+  kSync,
+  kToeCommand,
+  kHipCommand,
+  kKneeCommand,
+  kToeReply,
+  kHipReply,
+  kKneeReply,
+  kSupervisorOrder,
+  kOrderAcknowledge,
+  kHeartbeat,
+  kFootToe,
+  kFootLeg,
+  kFootGround,
+  kFootGate,
+  kFootCounters,
+};
+
+inline constexpr auto kMessages = std::to_array<MessageSpec>({
+    {"EmergencyStop", 0x001, 1, false, 0, 10, Node::kEstopButton, Node::kFoot, kBus0,
+     kEmergencyStopSignals, "Torque off at once; highest priority; cleared by the reset order"},
+    {"Sync", 0x010, 4, false, 1, 1, Node::kSyncMaster, Node::kFoot, kBus0 | kBus1, kSyncSignals,
+     "Runs one control tick"},
+    {"ToeCommand", 0x021, 8, false, 1, 1, Node::kFoot, Node::kToeDrive, kBus0, kCommandSignals[0],
+     "FF FF FF FF FF FF FF and FC, FD or FE: enter, exit, set zero"},
+    {"HipCommand", 0x022, 8, false, 1, 1, Node::kFoot, Node::kHipDrive, kBus1, kCommandSignals[1],
+     "As ToeCommand"},
+    {"KneeCommand", 0x023, 8, false, 1, 1, Node::kFoot, Node::kKneeDrive, kBus1, kCommandSignals[2],
+     "As ToeCommand"},
+    {"ToeReply", 0x031, 8, false, 1, 1, Node::kToeDrive, Node::kFoot, kBus0, kReplySignals[0],
+     "State of the drive when the command arrived"},
+    {"HipReply", 0x032, 8, false, 1, 1, Node::kHipDrive, Node::kFoot, kBus1, kReplySignals[1],
+     "As ToeReply"},
+    {"KneeReply", 0x033, 8, false, 1, 1, Node::kKneeDrive, Node::kFoot, kBus1, kReplySignals[2],
+     "As ToeReply"},
+    {"SupervisorOrder", 0x040, 8, true, 0, 10, Node::kSupervisor, Node::kFoot, kBus0,
+     kSupervisorOrderSignals, "Mode, toe angle and gait; owned by one supervisor at a time"},
+    {"OrderAcknowledge", 0x041, 8, true, 0, 10, Node::kFoot, Node::kSupervisor, kBus0,
+     kOrderAcknowledgeSignals, "Answers every order frame"},
+    {"Heartbeat", 0x050, 8, false, 100, 10, Node::kFoot, Node::kSupervisor, kBus0,
+     kHeartbeatSignals, "At 10 Hz and on change"},
+    {"FootToe", 0x060, 8, false, 10, 10, Node::kFoot, Node::kSupervisor, kBus0, kFootToeSignals,
+     "Toe opening"},
+    {"FootLeg", 0x061, 8, false, 10, 10, Node::kFoot, Node::kSupervisor, kBus0, kFootLegSignals,
+     "Leg posture"},
+    {"FootGround", 0x062, 8, false, 10, 10, Node::kFoot, Node::kSupervisor, kBus0,
+     kFootGroundSignals, "Gait and what the leg feels of the sand"},
+    {"FootGate", 0x063, 8, false, 10, 10, Node::kFoot, Node::kSupervisor, kBus0, kFootGateSignals,
+     "What the torque gate changed"},
+    {"FootCounters", 0x064, 8, false, 100, 100, Node::kFoot, Node::kSupervisor, kBus0,
+     kFootCountersSignals, "Counters of the control loop"},
+});
+
+constexpr const MessageSpec& spec(Message message) {
+  return kMessages[static_cast<std::size_t>(message)];
+}
+constexpr const MessageSpec& command_spec(Drive drive) {
+  return kMessages[static_cast<std::size_t>(Message::kToeCommand) + index(drive)];
+}
+constexpr const MessageSpec& reply_spec(Drive drive) {
+  return kMessages[static_cast<std::size_t>(Message::kToeReply) + index(drive)];
+}
+
+}  // namespace hoof::firmware::protocol
