@@ -1,0 +1,14 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "tools/cli/invocation.h"
+
+namespace hoof::tools {
+
+// One function per command, each in a file of its own: adds the command to `app` and arranges
+// that parsing it fills `invocation`.
+void add_report_command(CLI::App& app, Invocation& invocation);
+void add_version_command(CLI::App& app, Invocation& invocation);
+
+}  // namespace hoof::tools

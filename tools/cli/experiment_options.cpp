@@ -1,0 +1,196 @@
+#include "tools/cli/experiment_options.h"
+
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+namespace hoof::tools {
+namespace {
+
+constexpr double kToeMax_deg = 40.0;  // the paper's widest opening and the foot's mechanical range
+
+const std::vector<std::string> kFeet = {"bionic", "bionic-plain", "traditional"};
+const std::vector<std::string> kBeds = {"demo", "bench", "paper"};
+
+// The settings that the flags stand for, spelled once.
+constexpr std::string_view kFootKey = "experiment.foot";
+constexpr std::string_view kLoadMassKey = "experiment.load_kg";
+constexpr std::string_view kLoadForceKey = "experiment.load_N";
+constexpr std::string_view kLoadAsKey = "experiment.load_as";
+constexpr std::string_view kSpeedKey = "experiment.speed_m_s";
+constexpr std::string_view kFrequencyKey = "experiment.frequency_Hz";
+constexpr std::string_view kToeKey = "experiment.toe_deg";
+constexpr std::string_view kBedKey = "experiment.bed";
+constexpr std::string_view kTerrainKey = "experiment.terrain";
+constexpr std::string_view kDriveKey = "experiment.drive";
+constexpr std::string_view kBusKey = "experiment.bus";
+constexpr std::string_view kSeedKey = "experiment.seed";
+constexpr std::string_view kThreadsKey = "experiment.threads";
+
+// A checker returns the complaint, or nothing; CLI11 puts the flag's name in front of it.
+std::optional<double> parse_number(std::string_view text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return {};
+  return value;
+}
+
+CLI::Validator positive(const std::string& unit) {
+  return CLI::Validator(
+      [unit](const std::string& text) -> std::string {
+        const std::optional<double> value = parse_number(text);
+        if (!value) return "'" + text + "' is not a number (in " + unit + ")";
+        if (*value <= 0.0) return text + " " + unit + " is not above 0";
+        return "";
+      },
+      "");
+}
+
+struct Load {
+  std::string_view number;
+  std::string_view unit;
+};
+
+Load split_load(std::string_view text) {
+  const std::size_t end = text.find_last_of("0123456789.");
+  if (end == std::string_view::npos) return {text, ""};
+  const std::string_view unit = text.substr(end + 1);
+  return {text.substr(0, end + 1), unit.empty() ? "kg" : unit};
+}
+
+std::string check_load(const std::string& text) {
+  const auto [number, unit] = split_load(text);
+  const std::optional<double> value = parse_number(number);
+  if (!value) return "'" + text + "' is not a load such as 40, 40kg or 400N";
+  if (unit != "kg" && unit != "N") {
+    return "'" + text + "' has the unit '" + std::string(unit) + "'; known are kg and N";
+  }
+  if (*value <= 0.0) return text + " is not above 0 " + std::string(unit);
+  return "";
+}
+
+std::string check_toe(const std::string& text) {
+  const std::optional<double> value = parse_number(text);
+  if (!value) return "'" + text + "' is not a number (in degrees)";
+  if (*value < 0.0 || *value > kToeMax_deg) return text + " degrees is outside 0..40";
+  return "";
+}
+
+/// One of `names`, or a file that exists and ends in `ending` ("" for any).
+CLI::Validator name_or_file(const std::vector<std::string>& names, const std::string& ending) {
+  return CLI::Validator(
+      [names, ending](const std::string& text) -> std::string {
+        for (const std::string& name : names) {
+          if (text == name) return "";
+        }
+        std::error_code error;
+        const bool is_file = std::filesystem::is_regular_file(text, error);
+        if (is_file && text.ends_with(ending)) return "";
+        if (is_file) return "'" + text + "' does not end in " + ending;
+        return "'" + text + "' is none of " + CLI::detail::join(names, ", ") + " and no file";
+      },
+      "");
+}
+
+CLI::Validator one_of(const std::vector<std::string>& names) {
+  return CLI::Validator(
+      [names](const std::string& text) -> std::string {
+        for (const std::string& name : names) {
+          if (text == name) return "";
+        }
+        return "'" + text + "' is none of " + CLI::detail::join(names, ", ");
+      },
+      "");
+}
+
+/// `text` as a TOML basic string (toml.io, v1.0): quotes, backslashes and control characters
+/// escaped.
+std::string toml_string(std::string_view text) {
+  constexpr char kDigits[] = "0123456789ABCDEF";
+  std::string quoted = "\"";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      quoted += {'\\', c};
+    } else if (byte < 0x20 || byte == 0x7f) {
+      quoted += {'\\', 'u', '0', '0', kDigits[byte >> 4], kDigits[byte & 0xf]};
+    } else {
+      quoted += c;
+    }
+  }
+  return quoted + '"';
+}
+
+}  // namespace
+
+void add_experiment_options(CLI::App& command, ExperimentOptions& options, Experiment experiment) {
+  command.add_option("--foot", options.foot, "bionic, bionic-plain, traditional or FILE.stl")
+      ->type_name("FOOT")
+      ->check(name_or_file(kFeet, ".stl"));
+  command.add_option("--load", options.load, "On the foot: 40 or 40kg is a mass, 400N a force")
+      ->type_name("LOAD")
+      ->check(CLI::Validator(check_load, ""));
+  command.add_option("--load-as", options.load_as, "The load acts as a force or as a mass")
+      ->type_name("force|mass")
+      ->check(one_of({"force", "mass"}));
+  if (experiment == Experiment::kSinkage) {
+    command.add_option("--speed", options.speed, "Downward speed at first contact")
+        ->type_name("M_PER_S")
+        ->check(positive("m/s"));
+  } else {
+    command.add_option("--frequency", options.frequency, "Of the stance ellipse")
+        ->type_name("HZ")
+        ->check(positive("Hz"));
+    command.add_option("--drive", options.drive, "Legs moved by the firmware or as prescribed")
+        ->type_name("firmware|prescribed")
+        ->check(one_of({"firmware", "prescribed"}));
+  }
+  command.add_option("--toe", options.toe, "Opening of each toe, 0..40 degrees")
+      ->type_name("DEG")
+      ->check(CLI::Validator(check_toe, ""));
+  command.add_option("--bed", options.bed, "Preset demo, bench or paper, or a file")
+      ->type_name("PRESET|FILE")
+      ->check(name_or_file(kBeds, ""));
+  command.add_option("--terrain", options.terrain, "Grains (dem) or a rigid plane")
+      ->type_name("dem|rigid")
+      ->check(one_of({"dem", "rigid"}));
+  command.add_option("--bus", options.bus, "CAN interface, e.g. vcan0 [in process]")
+      ->type_name("IFACE");
+  add_run_options(command, options.run);
+}
+
+std::vector<std::string> settings_overrides(const ExperimentOptions& options) {
+  std::vector<std::string> overrides;
+  const auto add = [&overrides](std::string_view key, std::string_view value) {
+    overrides.push_back(std::string(key) + "=" + std::string(value));
+  };
+  const auto add_text = [&add](std::string_view key, const std::string& value) {
+    if (!value.empty()) add(key, toml_string(value));
+  };
+  const auto add_number = [&add](std::string_view key, const std::string& value) {
+    if (!value.empty()) add(key, value);
+  };
+
+  add_text(kFootKey, options.foot);
+  if (!options.load.empty()) {
+    const auto [number, unit] = split_load(options.load);
+    add(unit == "N" ? kLoadForceKey : kLoadMassKey, number);
+  }
+  add_text(kLoadAsKey, options.load_as);
+  add_number(kSpeedKey, options.speed);
+  add_number(kFrequencyKey, options.frequency);
+  add_number(kToeKey, options.toe);
+  add_text(kBedKey, options.bed);
+  add_text(kTerrainKey, options.terrain);
+  add_text(kDriveKey, options.drive);
+  add_text(kBusKey, options.bus);
+  if (options.run.seed) add(kSeedKey, std::to_string(*options.run.seed));
+  if (options.run.threads) add(kThreadsKey, std::to_string(*options.run.threads));
+  overrides.insert(overrides.end(), options.run.settings.begin(), options.run.settings.end());
+  return overrides;
+}
+
+}  // namespace hoof::tools

@@ -1,0 +1,83 @@
+"use strict";
+// Draws the plots of report.html from the JSON in the element "samples":
+// { time_s: [...], plots: [{ title, axis, unit, series: [{ label, values }] }],
+//   phases: [{ time_s, name }] }. Values are in the unit of their plot; null means no value.
+(() => {
+  const samples = JSON.parse(document.getElementById("samples").textContent);
+  // Okabe and Ito's palette, told apart by colour-blind readers; without its yellow, too pale on
+  // white, and with its black left to the text.
+  const colours = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"];
+  const plotHeight_px = 250;
+  const axisWidth_px = 70;
+
+  const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+  const shown = (value) => (value === null || value === undefined ? "" : String(+value.toPrecision(4)));
+
+  // A dashed line where a phase begins, its name beside it.
+  function drawPhases(plot) {
+    const { ctx, bbox } = plot;
+    ctx.save();
+    ctx.beginPath();
+    ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+    ctx.clip();
+    ctx.strokeStyle = ctx.fillStyle = colour("--faint");
+    ctx.font = `${11 * devicePixelRatio}px system-ui, sans-serif`;
+    ctx.setLineDash([4 * devicePixelRatio, 4 * devicePixelRatio]);
+    ctx.textBaseline = "top";
+    for (const phase of samples.phases) {
+      const x = plot.valToPos(phase.time_s, "x", true);
+      ctx.beginPath();
+      ctx.moveTo(x, bbox.top);
+      ctx.lineTo(x, bbox.top + bbox.height);
+      ctx.stroke();
+      ctx.fillText(phase.name, x + 4 * devicePixelRatio, bbox.top + 3 * devicePixelRatio);
+    }
+    ctx.restore();
+  }
+
+  function axis(label) {
+    const grid = { stroke: colour("--line"), width: 1 };
+    return { label, stroke: colour("--ink"), grid, ticks: grid, labelSize: 22 };
+  }
+
+  function draw(description, box) {
+    const series = description.series.map((line, index) => ({
+      label: line.label,
+      stroke: colours[index % colours.length],
+      dash: index < colours.length ? undefined : [6, 4],
+      width: 1.5,
+      value: (_, value) => shown(value),
+    }));
+    const options = {
+      width: box.clientWidth,
+      height: plotHeight_px,
+      scales: { x: { time: false } },
+      cursor: { sync: { key: "time" } },
+      axes: [axis("time [s]"), { ...axis(`${description.axis} [${description.unit}]`), size: axisWidth_px }],
+      series: [{ label: "time", value: (_, value) => shown(value) }, ...series],
+      hooks: { drawAxes: [drawPhases] },
+    };
+    const data = [samples.time_s, ...description.series.map((line) => line.values)];
+    return new uPlot(options, data, box);
+  }
+
+  const boxes = [...document.querySelectorAll(".plot .canvas")];
+  let drawn = [];
+  function drawAll() {
+    for (const plot of drawn) plot.destroy();
+    drawn = boxes.map((box, index) => draw(samples.plots[index], box));
+  }
+
+  drawAll();
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", drawAll);
+  addEventListener("resize", () => {
+    drawn.forEach((plot, index) => plot.setSize({ width: boxes[index].clientWidth, height: plotHeight_px }));
+  });
+  // Paper is white whatever the screen is; plots are pixels, so they are drawn anew for it.
+  const setPrinting = (printing) => {
+    document.documentElement.classList.toggle("printing", printing);
+    drawAll();
+  };
+  addEventListener("beforeprint", () => setPrinting(true));
+  addEventListener("afterprint", () => setPrinting(false));
+})();

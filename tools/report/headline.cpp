@@ -1,0 +1,72 @@
+#include "tools/report/headline.h"
+
+#include <array>
+#include <string_view>
+
+#include "tools/report/display_unit.h"
+
+namespace hoof::tools {
+namespace {
+
+enum class Source { kResult, kSettings };
+
+struct HeadlineRule {
+  std::string_view label;
+  Source source;
+  std::string_view table;  ///< of settings.toml; empty: top level
+  std::string_view key;
+};
+
+constexpr std::array kRules = {
+    HeadlineRule{"Foot", Source::kSettings, "experiment", "foot"},
+    HeadlineRule{"Load", Source::kSettings, "experiment", "load_kg"},
+    HeadlineRule{"Load", Source::kSettings, "experiment", "load_N"},
+    HeadlineRule{"Load acts as", Source::kSettings, "experiment", "load_as"},
+    HeadlineRule{"Speed at first contact", Source::kSettings, "experiment", "speed_m_s"},
+    HeadlineRule{"Stance frequency", Source::kSettings, "experiment", "frequency_Hz"},
+    HeadlineRule{"Bed", Source::kSettings, "experiment", "bed"},
+    HeadlineRule{"Greatest depth", Source::kResult, "", "max_depth_m"},
+    HeadlineRule{"Final depth", Source::kResult, "", "final_depth_m"},
+    HeadlineRule{"Traction coefficient, Fx at its peak over Fz then", Source::kResult, "",
+                 "traction_coefficient"},
+    HeadlineRule{"Peak propulsive force Fx", Source::kResult, "", "fx_peak_N"},
+    HeadlineRule{"Fz at that instant", Source::kResult, "", "fz_at_fx_peak_N"},
+    HeadlineRule{"Peak vertical force Fz", Source::kResult, "", "fz_peak_N"},
+    HeadlineRule{"Error of the foot's path", Source::kResult, "", "ellipse_error_m"},
+    HeadlineRule{"Toe angle commanded, per side", Source::kResult, "", "toe_command_rad"},
+    HeadlineRule{"Toe angle reached", Source::kResult, "", "toe_reached_rad"},
+    HeadlineRule{"Toe deflection by the sand", Source::kResult, "", "toe_deflection_rad"},
+    HeadlineRule{"Interventions of the torque gate", Source::kResult, "", "gate_interventions"},
+};
+
+constexpr int kDigits = 4;  // one more than any of these quantities is worth
+
+}  // namespace
+
+HeadlineRow headline_row(const std::string& label, const std::string& key,
+                         const nlohmann::ordered_json& value) {
+  if (value.is_string()) return {label, value.get<std::string>(), ""};
+  if (!value.is_number_float()) return {label, value.dump(), display_unit(key).symbol};
+  const DisplayUnit unit = display_unit(key);
+  return {label, format_significant(unit.factor * value.get<double>(), kDigits), unit.symbol};
+}
+
+std::vector<HeadlineRow> headline(const RunData& data) {
+  std::vector<HeadlineRow> rows;
+  for (const HeadlineRule& rule : kRules) {
+    const nlohmann::ordered_json* table =
+        rule.source == Source::kResult ? &data.result : &data.settings;
+    if (!rule.table.empty()) {
+      const auto found = table->find(std::string(rule.table));
+      if (found == table->end() || !found->is_object()) continue;
+      table = &*found;
+    }
+    const std::string key(rule.key);
+    const auto value = table->find(key);
+    if (value == table->end()) continue;
+    rows.push_back(headline_row(std::string(rule.label), key, *value));
+  }
+  return rows;
+}
+
+}  // namespace hoof::tools

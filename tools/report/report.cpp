@@ -1,0 +1,202 @@
+#include "tools/report/report.h"
+
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+#include "tools/report/assets.h"
+#include "tools/report/display_unit.h"
+#include "tools/report/headline.h"
+#include "tools/report/html.h"
+#include "tools/report/plot_groups.h"
+#include "tools/report/run_data.h"
+#include "tools/run/column_unit.h"
+#include "tools/run/output_file.h"
+
+namespace hoof::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kPlotDigits = 6;  // a plot of 2,000 pixels shows four; two more for zooming
+
+std::string title(const RunData& data) {
+  const auto experiment = data.result.find("experiment");
+  if (experiment == data.result.end() || !experiment->is_string()) return "Run";
+  std::string name = experiment->get<std::string>();
+  if (!name.empty() && name[0] >= 'a' && name[0] <= 'z') name[0] += 'A' - 'a';
+  return name + " test";
+}
+
+std::string headline_section(const RunData& data) {
+  std::string html = "<section><h2>Headline</h2><table>";
+  for (const HeadlineRow& row : headline(data)) {
+    html += "<tr>" + element("th", row.label, " scope=\"row\"") +
+            element("td", row.value, " class=\"number\"") +
+            element("td", row.unit, " class=\"unit\"") + "</tr>\n";
+  }
+  return html + "</table></section>\n";
+}
+
+// "spine_pitch_over_d50" -> "spine pitch / d50"
+std::string ratio_label(const std::string& key) {
+  std::string label = key;
+  const std::size_t over = label.find("_over_");
+  if (over != std::string::npos) label.replace(over, 6, " / ");
+  for (char& c : label) {
+    if (c == '_') c = ' ';
+  }
+  return label;
+}
+
+std::string resolution_section(const RunData& data) {
+  std::string html = "<section><h2>Resolution</h2>";
+  const auto resolution = data.result.find("resolution");
+  if (resolution == data.result.end()) {
+    return html + "<p class=\"note\">This run states no resolution.</p></section>\n";
+  }
+  html += "<table>";
+  for (const auto& item : resolution->items()) {
+    if (item.value().is_array()) continue;
+    const bool is_ratio = item.key().find("_over_") != std::string::npos;
+    const HeadlineRow row = headline_row(
+        is_ratio ? ratio_label(item.key()) : column_label(item.key()), item.key(), item.value());
+    html += "<tr>" + element("th", row.label, " scope=\"row\"") +
+            element("td", row.value, " class=\"number\"") +
+            element("td", row.unit, " class=\"unit\"") + "</tr>\n";
+  }
+  html += "</table>";
+  const auto refused = resolution->find("claims_refused");
+  if (refused != resolution->end() && refused->is_array() && !refused->empty()) {
+    html += "<div class=\"refused\"><strong>What this resolution cannot carry</strong><ul>";
+    for (const Json& claim : *refused) {
+      html += element("li", claim.is_string() ? claim.get<std::string>() : claim.dump());
+    }
+    html += "</ul></div>";
+  }
+  return html + "</section>\n";
+}
+
+std::string json_numbers(const std::vector<double>& values, double factor) {
+  std::string json = "[";
+  for (const double value : values) {
+    if (json.size() > 1) json += ',';
+    json += std::isfinite(value) ? format_significant(factor * value, kPlotDigits) : "null";
+  }
+  return json + "]";
+}
+
+std::string json_phases(const SampleTable& samples, const std::vector<double>& time_s) {
+  std::string json = "[";
+  const SampleColumn* phase = samples.find("phase_name");
+  if (phase == nullptr) return json + "]";
+  for (std::size_t i = 0; i < phase->texts.size(); ++i) {
+    if (i > 0 && phase->texts[i] == phase->texts[i - 1]) continue;
+    json += (i == 0 ? "" : ",") + Json{{"time_s", time_s[i]}, {"name", phase->texts[i]}}.dump();
+  }
+  return json + "]";
+}
+
+std::string json_samples(const SampleTable& samples, const std::vector<PlotGroup>& groups) {
+  const std::vector<double>& time_s = samples.find("time_s")->numbers;
+  std::string json = "{\"time_s\":" + json_numbers(time_s, 1.0) + ",\"plots\":[";
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    const PlotGroup& group = groups[i];
+    json += i == 0 ? "{" : ",\n{";
+    json += "\"axis\":" + Json(group.unit.quantity).dump() +
+            ",\"unit\":" + Json(group.unit.symbol).dump() + ",\"series\":[";
+    for (std::size_t c = 0; c < group.columns.size(); ++c) {
+      const SampleColumn& column = *group.columns[c];
+      json += (c == 0 ? "" : ",\n") + ("{\"label\":" + Json(column_label(column.name)).dump()) +
+              ",\"values\":" + json_numbers(column.numbers, group.unit.factor) + "}";
+    }
+    json += "]}";
+  }
+  return json + "],\"phases\":" + json_phases(samples, time_s) + "}";
+}
+
+std::string plots_section(const std::vector<PlotGroup>& groups) {
+  std::string html =
+      "<h2>Signals against time</h2>\n<p class=\"note\">Drag to zoom, double-click to see all; "
+      "click a name in the legend to hide its line. Dashed lines begin a phase.</p>\n"
+      "<noscript>The plots need JavaScript.</noscript>\n<div class=\"plots\">\n";
+  for (const PlotGroup& group : groups) {
+    html += "<div class=\"plot\">" + element("h3", group.title) +
+            "<div class=\"canvas\"></div></div>\n";
+  }
+  return html + "</div>\n";
+}
+
+void append_rows(std::string& html, const std::string& key, const Json& value) {
+  if (value.is_object() && !value.empty()) {
+    for (const auto& item : value.items()) {
+      append_rows(html, key.empty() ? item.key() : key + "." + item.key(), item.value());
+    }
+    return;
+  }
+  html += "<tr>" + element("th", key, " scope=\"row\"") +
+          element("td", value.is_string() ? value.get<std::string>() : value.dump()) + "</tr>\n";
+}
+
+std::string table_of(const Json& values) {
+  std::string html = "<table class=\"keys\">";
+  append_rows(html, "", values);
+  return html + "</table>\n";
+}
+
+std::string files_section(const RunData& data) {
+  std::string html = "<h2>Raw files of this run</h2>\n<table>";
+  for (const RunFile& file : data.files) {
+    const std::string name = html_escape(file.name);
+    html += "<tr><td><a href=\"./" + name + "\">" + name + "</a></td>" +
+            element("td", std::to_string(file.size_bytes), " class=\"number\"") +
+            element("td", "bytes", " class=\"unit\"") + "</tr>\n";
+  }
+  return html + "</table>\n";
+}
+
+std::string results_sections(const RunData& data) {
+  Json result = data.result;
+  const auto version = result.find("version");
+  const Json version_values = version == result.end() ? Json::object() : *version;
+  result.erase("version");
+  std::string html = "<h2>All results</h2>\n" + table_of(result) + files_section(data) +
+                     "<h2>Settings</h2>\n" + element("pre", data.settings_text) + "\n";
+  if (!version_values.empty()) html += "<h2>Version</h2>\n" + table_of(version_values);
+  return html;
+}
+
+std::string script(std::string_view text, std::string_view attributes = "") {
+  return "<script" + std::string(attributes) + ">" + std::string(text) + "</script>\n";
+}
+
+}  // namespace
+
+std::string make_report(const std::filesystem::path& run_folder) {
+  const RunData data = read_run_data(run_folder);
+  const std::vector<PlotGroup> groups = group_plots(data.samples);
+  std::string html =
+      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<meta name=\"color-scheme\" content=\"light dark\">\n"
+      // An icon of no bytes keeps browsers from asking for favicon.ico.
+      "<link rel=\"icon\" href=\"data:,\">\n";
+  html += element("title", "hoof: " + title(data)) + "\n<style>\n";
+  html += assets::uPlot_min_css;
+  html += assets::page_css;
+  html += "</style>\n</head>\n<body>\n" + element("h1", title(data)) + "\n<div class=\"columns\">";
+  html += headline_section(data) + resolution_section(data) + "</div>\n" + plots_section(groups);
+  html += results_sections(data);
+  html += script(json_for_script(json_samples(data.samples, groups)),
+                 " type=\"application/json\" id=\"samples\"");
+  html += script(assets::uPlot_iife_min_js) + script(assets::page_js);
+  return html + "</body>\n</html>\n";
+}
+
+std::filesystem::path write_report(const std::filesystem::path& run_folder) {
+  const std::filesystem::path path = run_folder / "report.html";
+  write_file(path, make_report(run_folder));
+  return path;
+}
+
+}  // namespace hoof::tools
