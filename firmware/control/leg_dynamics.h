@@ -1,0 +1,34 @@
+// Torques that move the leg as wanted, without the sand: inverse dynamics of two rigid links with
+// the foot fixed to the shank and a geared rotor at each joint.
+#pragma once
+
+#include "firmware/control/leg_kinematics.h"
+#include "firmware/control/settings.h"
+
+namespace hoof::firmware::control {
+
+class LegDynamics {
+ public:
+  explicit LegDynamics(const LegModelSettings& settings);
+
+  /// Drive torques for the given motion: gravity, link inertia, reflected rotor inertia, friction.
+  /// Source: Lagrange's equations in (h, s), see the .cpp file. The fields are Nm.
+  LegAngles torque_Nm(LegAngles q, LegAngles velocity_rad_s, LegAngles acceleration_rad_s2) const;
+
+ private:
+  float a_;  // inertia of everything about the hip, shank and foot as a point at the knee, kg m2
+  float b_;  // inertia of shank and foot about the knee, kg m2
+  float c_;  // coupling, kg m2
+  float moment_h_;  // mass moments for gravity, kg m
+  float moment_s_;
+  float rotor_;
+  float friction_;
+};
+
+/// Coulomb friction with the jump at zero speed smoothed over some 0.05 rad/s, so that noise of a
+/// speed near zero does not make torque: F v / (|v| + 0.05).
+inline float smooth_friction_Nm(float friction_Nm, float velocity_rad_s) {
+  return friction_Nm * velocity_rad_s / (absolute(velocity_rad_s) + 0.05f);
+}
+
+}  // namespace hoof::firmware::control
