@@ -74,7 +74,8 @@ class Settings {
   std::string to_toml(const std::filesystem::path& config_dir = default_config_dir()) const;
 
  private:
-  void put(const std::string& key, Entry entry);
+  void put(std::string key, Entry entry);
+  bool has_section(const std::string& key) const;
 
   Entries entries_;
 };
