@@ -8,11 +8,11 @@
 namespace hoof::hal {
 
 enum class SendResult : std::uint8_t {
-  kQueued = 0,     // accepted; it goes out when arbitration lets it
-  kFull,           // every mailbox or the send buffer is taken: try again later, nothing was sent
-  kBusOff,         // the controller left the bus after too many errors
-  kInvalid,        // the frame cannot exist (length, identifier, FD on a classic bus)
-  kDown,           // the interface is not up
+  kQueued = 0,  // accepted; it goes out when arbitration lets it
+  kFull,        // every mailbox or the send buffer is taken: try again later, nothing was sent
+  kBusOff,      // the controller left the bus after too many errors
+  kInvalid,     // the frame cannot exist (length, identifier, FD on a classic bus)
+  kDown,        // the interface is not up
 };
 
 struct BusStatus {

@@ -12,14 +12,14 @@ struct CanFrame {
   static constexpr std::size_t kMaxClassicLength = 8;
   static constexpr std::size_t kMaxFdLength = 64;
 
-  std::uint32_t id = 0;       // 11 bits, or 29 bits when `extended`
-  bool extended = false;      // 29-bit identifier
-  bool remote = false;        // remote request: no data; classic frames only
-  bool error = false;         // an error frame reported by the controller, never sent
-  bool fd = false;            // CAN FD format (up to 64 bytes, no remote frames)
+  std::uint32_t id = 0;   // 11 bits, or 29 bits when `extended`
+  bool extended = false;  // 29-bit identifier
+  bool remote = false;    // remote request: no data; classic frames only
+  bool error = false;     // an error frame reported by the controller, never sent
+  bool fd = false;        // CAN FD format (up to 64 bytes, no remote frames)
   bool bit_rate_switch = false;
   bool error_state_indicator = false;
-  std::uint8_t length = 0;    // bytes used of `data`
+  std::uint8_t length = 0;  // bytes used of `data`
   std::array<std::uint8_t, kMaxFdLength> data{};
   std::int64_t stamp_ns = 0;  // receive time on the receiver's clock; 0 on frames being sent
 
