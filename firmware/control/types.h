@@ -14,6 +14,8 @@ constexpr std::size_t index(Joint joint) {
   return static_cast<std::size_t>(joint);
 }
 
+inline constexpr float kTick_s = 0.001f;  // one SYNC to the next, in control time
+
 template <typename T>
 using PerJoint = std::array<T, kJointCount>;
 
@@ -59,6 +61,7 @@ struct JointState {
   float temperature_C = 0.0f;
   std::uint8_t error = 0;        // the drive's own code, 0 none
   bool received = false;         // at least one reply since start
+  bool referenced = false;       // the zero is known: homed, or an absolute encoder
   std::int64_t received_ns = 0;  // when, on the local clock
 };
 

@@ -1,0 +1,83 @@
+// The last word before the bus: lets a wish through, clips it, or refuses it, and says why.
+#pragma once
+
+#include <cstdint>
+
+#include "firmware/control/types.h"
+#include "firmware/safety/limits.h"
+
+namespace hoof::firmware::safety {
+
+/// Why a joint's command is not what was wished; one bit each.
+using LimitBits = std::uint8_t;
+namespace limit {
+inline constexpr LimitBits kTorque = 1u << 0;
+inline constexpr LimitBits kTorqueRate = 1u << 1;
+inline constexpr LimitBits kDistance = 1u << 2;
+inline constexpr LimitBits kTravel = 1u << 3;
+inline constexpr LimitBits kVelocity = 1u << 4;
+inline constexpr LimitBits kGain = 1u << 5;
+inline constexpr LimitBits kRefused = 1u << 6;  // not on the allow-list of the mode
+inline constexpr LimitBits kLatched = 1u << 7;  // replaced by damping after a fault
+}  // namespace limit
+
+struct Verdict {
+  control::PerJoint<control::JointWish> joint{};  // what goes to the drives
+  control::PerJoint<LimitBits> limits{};
+  control::PerJoint<float> torque_Nm{};  // expected of each drive now
+
+  LimitBits active_limits() const {
+    LimitBits all = 0;
+    for (const LimitBits bits : limits) all |= bits;
+    return all;
+  }
+};
+
+/// Knows nothing of gaits: a wish is judged by the mode's allow-list, the compiled ceilings, the
+/// torque it will make at the measured state, and the last verdict. A fault latches: from then on
+/// nothing but damping or exit passes until reset().
+class TorqueGate {
+ public:
+  explicit TorqueGate(control::JointPresence presence) : presence_(presence) {}
+
+  /// Looks at the drives' replies: freshness, drive errors, plausibility, travel, temperature.
+  /// Nothing is expected of drives while the mode is off, emergency off or fault.
+  /// @return faults found now (also latched)
+  control::FaultBits inspect(const control::PerJoint<control::JointState>& joints,
+                             control::Mode mode, std::int64_t now_ns);
+
+  /// Judges one wish, once per tick.
+  const Verdict& check(const control::Wish& wish,
+                       const control::PerJoint<control::JointState>& joints);
+
+  /// Latches for a fault found elsewhere (SYNC lost, for one).
+  void latch() { latched_ = true; }
+  /// Exit frames only, until reset().
+  void emergency_stop() { emergency_ = latched_ = true; }
+  /// The deliberate reset order; never called by the firmware itself.
+  void reset() { emergency_ = latched_ = false; }
+  /// The joint's zero was moved: its next position is no jump.
+  void forget_position(control::Joint joint) { last_[index(joint)].received = false; }
+
+  bool latched() const { return latched_; }
+  /// Joint commands changed or refused since start.
+  std::uint32_t interventions() const { return interventions_; }
+
+ private:
+  control::FaultBits inspect_joint(std::size_t i, const control::JointState& state,
+                                   std::int64_t now_ns);
+  bool position_plausible(std::size_t i, const control::JointState& state) const;
+  void judge(std::size_t i, control::Mode mode, const control::JointWish& wish,
+             const control::JointState& state);
+
+  control::JointPresence presence_;
+  bool latched_ = false;
+  bool emergency_ = false;
+  bool watching_ = false;
+  std::int64_t watched_since_ns_ = 0;
+  control::PerJoint<control::JointState> last_{};
+  Verdict verdict_;
+  std::uint32_t interventions_ = 0;
+};
+
+}  // namespace hoof::firmware::safety
