@@ -124,6 +124,19 @@ std::string toml_string(std::string_view text) {
   return quoted + '"';
 }
 
+std::string examples(Experiment experiment) {
+  if (experiment == Experiment::kSinkage) {
+    return "Examples:\n"
+           "  hoof sinkage\n"
+           "  hoof sinkage --foot traditional --load 40 --speed 0.1 --bed bench --seed 3\n"
+           "  hoof sinkage --foot bionic --toe 30 --load 400N --out runs/toe-30 --force";
+  }
+  return "Examples:\n"
+         "  hoof traction\n"
+         "  hoof traction --foot bionic-plain --frequency 1.12 --toe 20\n"
+         "  hoof traction --drive prescribed --set bed.seed=3 --threads 2";
+}
+
 }  // namespace
 
 void add_experiment_options(CLI::App& command, ExperimentOptions& options, Experiment experiment) {
@@ -160,6 +173,7 @@ void add_experiment_options(CLI::App& command, ExperimentOptions& options, Exper
   command.add_option("--bus", options.bus, "CAN interface, e.g. vcan0 [in process]")
       ->type_name("IFACE");
   add_run_options(command, options.run);
+  command.footer(examples(experiment));
 }
 
 std::vector<std::string> settings_overrides(const ExperimentOptions& options) {
