@@ -52,7 +52,9 @@ class FootController {
   const ToeOpening& toe() const { return toe_; }
   const LegMotion& leg() const { return leg_; }
   const GroundEstimate& ground() const { return contact_.estimate(); }
+  const Wish& wish() const { return wish_; }
   const JointPresence& presence() const { return presence_; }
+  float hip_above_sand_m() const { return settings_.path.hip_above_sand_m; }
 
  private:
   using States = PerJoint<JointState>;

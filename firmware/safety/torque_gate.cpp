@@ -92,6 +92,7 @@ bool TorqueGate::position_plausible(std::size_t i, const JointState& state) cons
 
 const Verdict& TorqueGate::check(const control::Wish& wish,
                                  const control::PerJoint<JointState>& joints) {
+  verdict_.faults = 0;
   for (std::size_t i = 0; i < kJointCount; ++i) {
     verdict_.limits[i] = 0;
     if (presence_.has(i)) judge(i, wish.mode, wish.joint[i], joints[i]);
@@ -114,7 +115,10 @@ void TorqueGate::judge(std::size_t i, Mode mode, const JointWish& wish, const Jo
     bits = limit::kRefused;
   }
   if (out.action != DriveAction::kCommand) return;
-  if (!is_finite(out.command)) latched_ = true;
+  if (!is_finite(out.command)) {
+    latched_ = true;
+    verdict_.faults |= fault::kInvalidWish;
+  }
   if (latched_ && !is_pure_damping(out.command)) {
     out.command = {.kd_Nm_s_rad = kLimits[i].stop_kd_Nm_s_rad};
     bits |= limit::kLatched;

@@ -25,6 +25,7 @@ struct Verdict {
   control::PerJoint<control::JointWish> joint{};  // what goes to the drives
   control::PerJoint<LimitBits> limits{};
   control::PerJoint<float> torque_Nm{};  // expected of each drive now
+  control::FaultBits faults = 0;         // a wish that is not a number
 
   LimitBits active_limits() const {
     LimitBits all = 0;
@@ -59,6 +60,7 @@ class TorqueGate {
   /// The joint's zero was moved: its next position is no jump.
   void forget_position(control::Joint joint) { last_[index(joint)].received = false; }
 
+  const Verdict& verdict() const { return verdict_; }
   bool latched() const { return latched_; }
   /// Joint commands changed or refused since start.
   std::uint32_t interventions() const { return interventions_; }

@@ -1,0 +1,79 @@
+// The firmware as a whole: read, decide, gate, write, once per SYNC.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "firmware/app/inbox.h"
+#include "firmware/app/order_desk.h"
+#include "firmware/app/outbox.h"
+#include "firmware/app/parameters.h"
+#include "firmware/app/telemetry.h"
+#include "firmware/control/foot_controller.h"
+#include "firmware/safety/torque_gate.h"
+#include "hal/can_bus.h"
+#include "hal/clock.h"
+
+namespace hoof::firmware::app {
+
+/// Arithmetic counts SYNC ticks of one millisecond each, so a slow master only makes it slow. The
+/// local clock is for one thing: to notice that SYNC or a drive has fallen silent.
+///
+/// Owns no thread and no timer: call poll() at least once per millisecond of the clock, and
+/// whenever a frame may have arrived.
+class ControlLoop {
+ public:
+  using Buses = std::array<hal::CanBus*, protocol::kBusCount>;
+
+  /// @param buses both must outlive the loop; bus 1 may be the same object as bus 0 when all
+  ///        drives share one bus
+  ControlLoop(Buses buses, const hal::Clock& clock, const Parameters& parameters);
+  ControlLoop(const ControlLoop&) = delete;
+  ControlLoop& operator=(const ControlLoop&) = delete;
+
+  void poll();
+
+  /// Ends the operation from this side, as the order to stop would: a leg is let down, then off.
+  void request_stop() { controller_.order_stop(); }
+  /// Torque off at once, as the e-stop frame would.
+  void emergency_stop();
+  /// Sends every drive its exit frame once more: the last thing before the program ends.
+  void release_drives() { write({}); }
+
+  const Telemetry& telemetry() const { return telemetry_; }
+  control::Mode mode() const { return controller_.mode(); }
+  control::FaultBits faults() const { return controller_.faults(); }
+
+ private:
+  void watch_sync(std::int64_t now_ns);
+  void read(std::int64_t now_ns);
+  void answer_orders(std::int64_t now_ns);
+  void run_due_tick(std::int64_t now_ns);
+  void tick(std::int64_t now_ns);
+  void adopt_toe_zero();
+  void write(const control::PerJoint<control::JointWish>& joints);
+  void record(std::int64_t now_ns);
+  void send_telemetry();
+  void send_heartbeat_if_due(std::int64_t now_ns);
+  void queue(const hal::CanFrame& frame);
+  void trip(control::FaultBits faults);
+
+  Buses buses_;
+  const hal::Clock& clock_;
+  Counters counters_;
+  Inbox inbox_;
+  control::FootController controller_;
+  safety::TorqueGate gate_;
+  OrderDesk orders_;
+  Outbox outbox_;
+  Telemetry telemetry_;
+
+  bool synced_ = false;
+  std::int64_t last_sync_ns_ = 0;
+  std::int64_t last_tick_ns_ = 0;
+  protocol::Heartbeat heartbeat_;
+  bool heartbeat_sent_ = false;
+  std::int64_t heartbeat_ns_ = 0;
+};
+
+}  // namespace hoof::firmware::app

@@ -1,0 +1,136 @@
+#include "firmware/app/parameters.h"
+
+#include <array>
+
+namespace hoof::firmware::app {
+namespace {
+
+using P = Parameters;
+
+constexpr auto kTable = std::to_array<ParameterEntry>({
+    {"toe_kp_Nm_rad", "Nm/rad", 0, 500, [](P& p) -> float& { return p.control.toe.kp_Nm_rad; },
+     "Stiffness that holds the toes; deflection = sand torque / stiffness"},
+    {"toe_kd_Nm_s_rad", "Nm s/rad", 0, 5, [](P& p) -> float& { return p.control.toe.kd_Nm_s_rad; },
+     "Damping of the toes"},
+    {"toe_inertia_kg_m2", "kg m2", 0, 1, [](P& p) -> float& { return p.control.toe.inertia_kg_m2; },
+     "Rotor and both toes at the hinge, for the feed-forward"},
+    {"toe_friction_Nm", "Nm", 0, 5, [](P& p) -> float& { return p.control.toe.friction_Nm; },
+     "Friction of the toe drive, for the feed-forward"},
+    {"toe_speed_rad_s", "rad/s", 0.05f, 8, [](P& p) -> float& { return p.control.toe.speed_rad_s; },
+     "Largest speed of opening moves"},
+    {"toe_acceleration_rad_s2", "rad/s2", 0.5f, 200,
+     [](P& p) -> float& { return p.control.toe.acceleration_rad_s2; },
+     "Largest acceleration of opening moves"},
+    {"toe_jerk_rad_s3", "rad/s3", 10, 20000,
+     [](P& p) -> float& { return p.control.toe.jerk_rad_s3; }, "Largest jerk of opening moves"},
+    {"toe_largest_angle_rad", "rad", 0.1f, 0.9f,
+     [](P& p) -> float& { return p.control.toe.largest_angle_rad; },
+     "Orders for a wider opening are refused"},
+    {"toe_jam_torque_Nm", "Nm", 0.5f, 10,
+     [](P& p) -> float& { return p.control.toe.jam_torque_Nm; },
+     "Standing still at this torque is a jam"},
+    {"toe_jam_time_s", "s", 0.02f, 5, [](P& p) -> float& { return p.control.toe.jam_time_s; },
+     "How long before a jam is called"},
+    {"homing_speed_rad_s", "rad/s", 0.1f, 2,
+     [](P& p) -> float& { return p.control.homing.speed_rad_s; }, "Closing speed of homing"},
+    {"homing_kd_Nm_s_rad", "Nm s/rad", 0.5f, 5,
+     [](P& p) -> float& { return p.control.homing.kd_Nm_s_rad; },
+     "Damping of homing; push at the stop = speed times damping"},
+    {"homing_stall_torque_Nm", "Nm", 0.1f, 5,
+     [](P& p) -> float& { return p.control.homing.stall_torque_Nm; },
+     "Torque that tells the end stop"},
+    {"homing_timeout_s", "s", 0.5f, 60, [](P& p) -> float& { return p.control.homing.timeout_s; },
+     "Longest search for the stop"},
+    {"homing_stop_angle_rad", "rad", -0.1f, 0.2f,
+     [](P& p) -> float& { return p.control.homing.stop_angle_rad; },
+     "Opening angle at the closed end stop"},
+    {"leg_kp_Nm_rad", "Nm/rad", 0, 20000, [](P& p) -> float& { return p.control.leg.kp_Nm_rad; },
+     "Stiffness of hip and knee"},
+    {"leg_kd_Nm_s_rad", "Nm s/rad", 0, 500,
+     [](P& p) -> float& { return p.control.leg.kd_Nm_s_rad; }, "Damping of hip and knee"},
+    {"leg_stop_kd_Nm_s_rad", "Nm s/rad", 20, 500,
+     [](P& p) -> float& { return p.control.leg.stop_kd_Nm_s_rad; },
+     "Damping that lets a loaded leg down"},
+    {"leg_speed_rad_s", "rad/s", 0.05f, 4, [](P& p) -> float& { return p.control.leg.speed_rad_s; },
+     "Largest speed of the move to the start of the path"},
+    {"leg_acceleration_rad_s2", "rad/s2", 0.1f, 50,
+     [](P& p) -> float& { return p.control.leg.acceleration_rad_s2; },
+     "Largest acceleration of that move"},
+    {"leg_jerk_rad_s3", "rad/s3", 1, 2000, [](P& p) -> float& { return p.control.leg.jerk_rad_s3; },
+     "Largest jerk of that move"},
+    {"thigh_m", "m", 0.05f, 1, [](P& p) -> float& { return p.control.leg_model.thigh_m; },
+     "Hip to knee"},
+    {"shank_m", "m", 0.05f, 1, [](P& p) -> float& { return p.control.leg_model.shank_m; },
+     "Knee to sole point"},
+    {"thigh_mass_kg", "kg", 0, 20, [](P& p) -> float& { return p.control.leg_model.thigh_mass_kg; },
+     "Thigh"},
+    {"thigh_centre_m", "m", 0, 1, [](P& p) -> float& { return p.control.leg_model.thigh_centre_m; },
+     "Hip to centre of mass of the thigh"},
+    {"thigh_inertia_kg_m2", "kg m2", 0, 2,
+     [](P& p) -> float& { return p.control.leg_model.thigh_inertia_kg_m2; },
+     "Thigh about its centre of mass"},
+    {"shank_mass_kg", "kg", 0, 20, [](P& p) -> float& { return p.control.leg_model.shank_mass_kg; },
+     "Shank without foot"},
+    {"shank_centre_m", "m", 0, 1, [](P& p) -> float& { return p.control.leg_model.shank_centre_m; },
+     "Knee to centre of mass of the shank"},
+    {"shank_inertia_kg_m2", "kg m2", 0, 2,
+     [](P& p) -> float& { return p.control.leg_model.shank_inertia_kg_m2; },
+     "Shank about its centre of mass"},
+    {"foot_mass_kg", "kg", 0, 20, [](P& p) -> float& { return p.control.leg_model.foot_mass_kg; },
+     "Foot with toes and toe drive"},
+    {"foot_centre_m", "m", 0, 1, [](P& p) -> float& { return p.control.leg_model.foot_centre_m; },
+     "Knee to centre of mass of the foot"},
+    {"leg_rotor_inertia_kg_m2", "kg m2", 0, 5,
+     [](P& p) -> float& { return p.control.leg_model.rotor_inertia_kg_m2; },
+     "Rotor of a leg drive, reflected to the joint"},
+    {"leg_friction_Nm", "Nm", 0, 50, [](P& p) -> float& { return p.control.leg_model.friction_Nm; },
+     "Friction of a leg drive, for the feed-forward"},
+    {"ellipse_semi_x_m", "m", 0.005f, 0.3f, [](P& p) -> float& { return p.control.path.semi_x_m; },
+     "Half length of the stance path"},
+    {"ellipse_semi_z_m", "m", 0.005f, 0.2f, [](P& p) -> float& { return p.control.path.semi_z_m; },
+     "Half height of the stance path"},
+    {"ellipse_centre_above_sand_m", "m", -0.05f, 0.3f,
+     [](P& p) -> float& { return p.control.path.centre_above_sand_m; },
+     "Centre of the stance path above the level sand"},
+    {"hip_above_sand_m", "m", 0.1f, 2,
+     [](P& p) -> float& { return p.control.path.hip_above_sand_m; },
+     "Hip axis above the level sand"},
+    {"gait_largest_frequency_Hz", "Hz", 0.1f, 5,
+     [](P& p) -> float& { return p.control.path.largest_frequency_Hz; },
+     "Orders for a faster gait are refused"},
+    {"contact_touch_force_N", "N", 1, 500,
+     [](P& p) -> float& { return p.control.contact.touch_force_N; },
+     "Estimated vertical force that tells touch-down"},
+    {"contact_release_force_N", "N", 0, 500,
+     [](P& p) -> float& { return p.control.contact.release_force_N; },
+     "Estimated vertical force below which contact ends"},
+    {"stop_longest_s", "s", 0.1f, 10, [](P& p) -> float& { return p.control.stop.longest_s; },
+     "A damped stop ends after this time, at rest or not"},
+    {"toe_present", "bool", 0, 1, [](P& p) -> float& { return p.toe_present; },
+     "This rig has a toe drive"},
+    {"leg_present", "bool", 0, 1, [](P& p) -> float& { return p.leg_present; },
+     "This rig has hip and knee drives"},
+});
+
+}  // namespace
+
+std::span<const ParameterEntry> parameter_table() {
+  return kTable;
+}
+
+const ParameterEntry* find_parameter(std::string_view name) {
+  for (const ParameterEntry& entry : kTable) {
+    if (entry.name == name) return &entry;
+  }
+  return nullptr;
+}
+
+SetResult set(Parameters& parameters, std::string_view name, float value) {
+  const ParameterEntry* entry = find_parameter(name);
+  if (entry == nullptr) return SetResult::kUnknownName;
+  if (!(value >= entry->minimum && value <= entry->maximum)) return SetResult::kOutOfRange;
+  entry->value(parameters) = value;
+  return SetResult::kOk;
+}
+
+}  // namespace hoof::firmware::app

@@ -1,0 +1,77 @@
+// The firmware on Linux: the same control loop on SocketCAN, in place of a board.
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <csignal>
+#include <iostream>
+#include <memory>
+
+#include "firmware/app/control_loop.h"
+#include "firmware/board/host/options.h"
+#include "firmware/board/host/scaled_clock.h"
+#include "hal/socketcan/socketcan_bus.h"
+
+namespace {
+
+using namespace hoof::firmware;
+
+std::atomic<bool> interrupted{false};
+
+void on_signal(int) {
+  interrupted = true;
+}
+
+/// Sleeps at most this long: also without frames the loop looks at its clock every millisecond.
+constexpr std::int64_t kLongestSleep_ns = 500'000;
+
+bool drives_off(control::Mode mode) {
+  return mode == control::Mode::kOff || mode == control::Mode::kEmergencyOff ||
+         mode == control::Mode::kFault;
+}
+
+/// Runs until interrupted; then lets the leg down by damping and leaves with the drives off.
+void run(app::ControlLoop& loop, hoof::hal::SocketCanBus& bus0) {
+  while (!interrupted) {
+    bus0.wait(kLongestSleep_ns);
+    loop.poll();
+  }
+  loop.request_stop();
+  while (!drives_off(loop.mode())) {
+    bus0.wait(kLongestSleep_ns);
+    loop.poll();
+  }
+  loop.release_drives();
+}
+
+int start(const board::Options& options) {
+  hoof::hal::SocketCanBus bus0({.interface = options.bus0});
+  std::unique_ptr<hoof::hal::SocketCanBus> bus1;
+  if (options.bus1 != options.bus0) {
+    bus1 = std::make_unique<hoof::hal::SocketCanBus>(
+        hoof::hal::SocketCanSettings{.interface = options.bus1});
+  }
+  const board::ScaledClock clock(options.slow_down);
+  app::ControlLoop loop({&bus0, bus1 ? bus1.get() : &bus0}, clock, options.parameters);
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  run(loop, bus0);
+  std::cerr << "hoof-firmware: stopped after " << loop.telemetry().counters.ticks
+            << " ticks, drives off\n";
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return start(board::read_options(argc, argv));
+  } catch (const CLI::Success&) {
+    std::cout << "usage: hoof-firmware --bus can0[,can1] [--set name=value]... [--slow-down N]\n";
+    return 0;
+  } catch (const CLI::ParseError& error) {
+    std::cerr << "hoof-firmware: " << error.what() << '\n';
+    return 2;
+  } catch (const std::exception& error) {
+    std::cerr << "hoof-firmware: " << error.what() << '\n';
+    return 1;
+  }
+}

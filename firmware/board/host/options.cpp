@@ -1,0 +1,66 @@
+#include "firmware/board/host/options.h"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+#include <sstream>
+#include <string_view>
+#include <vector>
+
+namespace hoof::firmware::board {
+namespace {
+
+std::string range_text(const app::ParameterEntry& entry) {
+  std::ostringstream text;
+  text << entry.name << " must be from " << entry.minimum << " to " << entry.maximum << ' '
+       << entry.unit;
+  return text.str();
+}
+
+/// "name=value"; an empty string when it was taken, else what is wrong with it.
+std::string apply_setting(app::Parameters& parameters, std::string_view setting) {
+  const std::string quoted = "--set " + std::string(setting) + ": ";
+  const std::size_t equals = setting.find('=');
+  if (equals == std::string_view::npos) return quoted + "expected name=value";
+  const std::string_view name = setting.substr(0, equals);
+  const std::string_view text = setting.substr(equals + 1);
+  float value = 0.0f;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) return quoted + "not a number";
+  switch (app::set(parameters, name, value)) {
+    case app::SetResult::kOk:
+      return {};
+    case app::SetResult::kUnknownName:
+      return quoted + "no such parameter";
+    case app::SetResult::kOutOfRange:
+      return quoted + range_text(*app::find_parameter(name));
+  }
+  return {};
+}
+
+}  // namespace
+
+Options read_options(int argc, char** argv) {
+  Options options;
+  std::string buses;
+  std::vector<std::string> settings;
+  CLI::App app{"Foot control firmware on Linux, over SocketCAN", "hoof-firmware"};
+  app.add_option("--bus", buses, "interface of bus 0, or of bus 0 and bus 1: can0 or can0,can1")
+      ->required();
+  app.add_option("--set", settings, "parameter as name=value; may be repeated");
+  app.add_option("--slow-down", options.slow_down,
+                 "wall seconds per control second, for a plant simulated slower than real time")
+      ->check(CLI::Range(1.0, 1e6));
+  app.parse(argc, argv);
+
+  const std::size_t comma = buses.find(',');
+  options.bus0 = buses.substr(0, comma);
+  options.bus1 = comma == std::string::npos ? options.bus0 : buses.substr(comma + 1);
+  for (const std::string& setting : settings) {
+    const std::string problem = apply_setting(options.parameters, setting);
+    if (!problem.empty()) throw CLI::ValidationError(problem);
+  }
+  return options;
+}
+
+}  // namespace hoof::firmware::board
