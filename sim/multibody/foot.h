@@ -1,7 +1,8 @@
 // A foot ready to be mounted on a rig: meshes, hinges, masses.
 #pragma once
 
-#include <filesystem>
+#include <string>
+#include <vector>
 
 #include "sim/config/reader.h"
 #include "sim/dem/triangle_mesh.h"
@@ -40,10 +41,11 @@ struct Foot {
 };
 
 /// Reads the section "foot" of a run and makes the meshes. A foot with `mesh_file` is one rigid
-/// body from that STL file.
+/// body from that STL file; `toe` and `spines` are sections a foot may lack.
 Foot read_foot(Reader section);
 
-/// The settings of a foot from an STL file, to be merged as section "foot".
-Settings stl_foot_settings(const std::filesystem::path& stl_file);
+/// What a --foot option stands for as --set overrides: the name of a preset, or the path of an STL
+/// file (a name that ends in .stl, in any case of letters).
+std::vector<std::string> foot_overrides(const std::string& name_or_stl_file);
 
 }  // namespace hoof::sim

@@ -22,6 +22,11 @@ struct Leg {
   /// Where the sole is level: the middle of the sole at x = 0 and this height. It fixes the angle
   /// between shank and foot.
   double level_sole_z_m = 0.0;
+  /// Mechanical end stops.
+  double hip_min_rad = 0.0;
+  double hip_max_rad = 0.0;
+  double knee_min_rad = 0.0;
+  double knee_max_rad = 0.0;
 
   /// @throws std::invalid_argument naming the first broken rule
   void validate() const;

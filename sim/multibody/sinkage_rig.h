@@ -1,10 +1,8 @@
 // A carriage on a vertical slider presses a foot into the ground.
 #pragma once
 
-#include <memory>
-
 #include "sim/multibody/foot.h"
-#include "sim/multibody/rig.h"
+#include "sim/multibody/foot_rig.h"
 
 namespace hoof::sim {
 
@@ -34,10 +32,9 @@ struct SinkageRigSettings {
 };
 
 /// Only vertical motion; the middle segment is fixed to the carriage and level. No hip, no knee.
-class SinkageRig final : public Rig {
+class SinkageRig final : public FootRig {
  public:
   explicit SinkageRig(const SinkageRigSettings& settings);
-  ~SinkageRig() override;
 
   /// Stands still, whatever the load. State at the start.
   void hold();
@@ -46,25 +43,15 @@ class SinkageRig final : public Rig {
   /// Free on its slider under the load, with the velocity it has.
   void release();
 
-  int body_count() const override;
-  const TriangleMesh& mesh(int body) const override;
-  Pose pose(int body) const override;
-  std::span<const Joint> joints() const override;
-  double joint_position_rad(Joint joint) const override;
-  double joint_velocity_rad_s(Joint joint) const override;
-  void apply_joint_torque(Joint joint, double torque_Nm) override;
-  void apply_wrench(int body, const Wrench& wrench) override;
   void step(double interval_s) override;
-  RigEnergy energy() const override;
-  Eigen::Vector3d foot_velocity_m_s() const override;
-  double toe_opening_rad(int toe) const override;
 
   /// Mass that moves on the slider, foot included.
-  double moving_mass_kg() const;
+  using FootRig::moving_mass_kg;
 
  private:
-  struct Model;
-  std::unique_ptr<Model> model_;
+  OdeSlider slider_;
+  double load_N_;
+  bool released_ = false;
 };
 
 }  // namespace hoof::sim

@@ -1,11 +1,8 @@
 // A leg, its hip fixed in the world, drives a foot through the ground.
 #pragma once
 
-#include <memory>
-
-#include "sim/multibody/foot.h"
+#include "sim/multibody/foot_rig.h"
 #include "sim/multibody/leg.h"
-#include "sim/multibody/rig.h"
 
 namespace hoof::sim {
 
@@ -23,27 +20,21 @@ struct TractionRigSettings {
 
 /// Thigh and shank swing in the x-z plane; the middle segment of the foot is fixed to the shank,
 /// the toes turn on their hinges. Gravity acts on all parts.
-class TractionRig final : public Rig {
+class TractionRig final : public FootRig {
  public:
   explicit TractionRig(const TractionRigSettings& settings);
-  ~TractionRig() override;
 
-  int body_count() const override;
-  const TriangleMesh& mesh(int body) const override;
-  Pose pose(int body) const override;
-  std::span<const Joint> joints() const override;
   double joint_position_rad(Joint joint) const override;
   double joint_velocity_rad_s(Joint joint) const override;
   void apply_joint_torque(Joint joint, double torque_Nm) override;
-  void apply_wrench(int body, const Wrench& wrench) override;
-  void step(double interval_s) override;
   RigEnergy energy() const override;
-  Eigen::Vector3d foot_velocity_m_s() const override;
-  double toe_opening_rad(int toe) const override;
 
  private:
-  struct Model;
-  std::unique_ptr<Model> model_;
+  TractionRig(const TractionRigSettings& settings, const LegAngles& start);
+
+  OdeBody thigh_;
+  OdeHinge hip_;
+  OdeHinge knee_;
 };
 
 }  // namespace hoof::sim
