@@ -8,8 +8,8 @@ namespace hoof::sim {
 struct CouplingSettings {
   /// Interval between two exchanges; also the step of the multibody world and of the drives' law.
   double exchange_s = 0.0;
-  /// The ground is not stepped while all bodies are higher than this above its surface. Longer than
-  /// the way of the fastest foot between two exchanges.
+  /// The ground is not stepped before a body first comes this near to its surface. Above the
+  /// largest grain radius, and far above the way of the fastest foot in one exchange.
   double sleep_margin_m = 0.0;
   /// A body faster than this has diverged.
   double speed_limit_m_s = 0.0;

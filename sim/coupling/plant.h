@@ -52,13 +52,17 @@ class Plant {
   Drive* drive(Joint joint);
   const Drive* drive(Joint joint) const;
 
+  /// Mean torque of the drive's gear on the joint in the last interval; 0 without a drive.
+  double joint_torque_Nm(Joint joint) const { return torques_Nm_[static_cast<int>(joint)]; }
+
   /// Of the ground on each body in the last interval.
   std::span<const Wrench> wrenches() const { return wrenches_; }
   /// Of the ground on the whole foot in the last interval, world frame.
   Eigen::Vector3d ground_force_N() const;
   /// True once any body has felt a force.
   bool touched() const { return touched_; }
-  /// True while the foot is so high that the ground is not stepped.
+  /// True until the foot comes near the ground for the first time: the settled ground is not
+  /// stepped before. Later never again, as sand that was moved may still be on its way.
   bool terrain_asleep() const { return asleep_; }
 
   ExchangeEnergy exchange_energy() const { return exchange_energy_; }
@@ -74,10 +78,11 @@ class Plant {
   std::unique_ptr<Terrain> terrain_;
   CouplingSettings settings_;
   std::array<std::optional<Drive>, kJointCount> drives_;
+  std::array<double, kJointCount> torques_Nm_{};
   std::vector<BodyMotion> motions_;
   std::vector<Wrench> wrenches_;
   std::int64_t intervals_ = 0;
-  bool asleep_ = false;
+  bool asleep_ = true;
   bool touched_ = false;
   ExchangeEnergy exchange_energy_;
 };

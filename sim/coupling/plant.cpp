@@ -1,0 +1,131 @@
+#include "sim/coupling/plant.h"
+
+#include <algorithm>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+
+namespace hoof::sim {
+namespace {
+
+/// Work of a wrench held while its body moves: force times way of the origin, torque times turn.
+double work_J(const Wrench& wrench, const BodyMotion& motion) {
+  const Eigen::AngleAxisd turn(motion.end.q_WB * motion.start.q_WB.conjugate());
+  return wrench.f_W_N.dot(motion.end.p_WB_m - motion.start.p_WB_m) +
+         wrench.tau_Bo_W_Nm.dot(turn.axis() * turn.angle());
+}
+
+}  // namespace
+
+Plant::Plant(std::unique_ptr<Rig> rig, const DriveSet& drives, std::unique_ptr<Terrain> terrain,
+             const CouplingSettings& settings)
+    : rig_(std::move(rig)), terrain_(std::move(terrain)), settings_(settings) {
+  settings_.validate();
+  for (const Joint joint : rig_->joints()) {
+    const int index = static_cast<int>(joint);
+    if (drives[index]) drives_[index].emplace(*drives[index], rig_->joint_position_rad(joint));
+  }
+  for (int body = 0; body < rig_->body_count(); ++body) {
+    const Pose pose = rig_->pose(body);
+    terrain_->add_body(rig_->mesh(body), pose);
+    motions_.push_back({pose, pose});
+  }
+  wrenches_.resize(motions_.size());
+}
+
+Drive* Plant::drive(Joint joint) {
+  auto& drive = drives_[static_cast<int>(joint)];
+  return drive ? &*drive : nullptr;
+}
+
+const Drive* Plant::drive(Joint joint) const {
+  const auto& drive = drives_[static_cast<int>(joint)];
+  return drive ? &*drive : nullptr;
+}
+
+Eigen::Vector3d Plant::ground_force_N() const {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Wrench& wrench : wrenches_) sum += wrench.f_W_N;
+  return sum;
+}
+
+void Plant::advance() {
+  step_drives();
+  step_rig();
+  step_terrain();
+  ++intervals_;
+  guard();
+}
+
+void Plant::step_drives() {
+  for (const Joint joint : rig_->joints()) {
+    Drive* const motor = drive(joint);
+    if (motor == nullptr) continue;
+    const double torque_Nm = motor->step(settings_.exchange_s, rig_->joint_position_rad(joint),
+                                         rig_->joint_velocity_rad_s(joint));
+    torques_Nm_[static_cast<int>(joint)] = torque_Nm;
+    rig_->apply_joint_torque(joint, torque_Nm);
+  }
+}
+
+void Plant::step_rig() {
+  for (std::size_t body = 0; body < motions_.size(); ++body) {
+    rig_->apply_wrench(static_cast<int>(body), wrenches_[body]);
+  }
+  rig_->step(settings_.exchange_s);
+  for (std::size_t body = 0; body < motions_.size(); ++body) {
+    BodyMotion& motion = motions_[body];
+    motion.start = motion.end;
+    motion.end = rig_->pose(static_cast<int>(body));
+    exchange_energy_.work_on_rig_J += work_J(wrenches_[body], motion);
+  }
+}
+
+void Plant::step_terrain() {
+  if (asleep_) {
+    asleep_ = lowest_point_m() > terrain_->surface_height_m() + settings_.sleep_margin_m;
+    if (asleep_) return;
+  }
+  terrain_->advance(settings_.exchange_s, motions_, wrenches_);
+  exchange_energy_.work_by_terrain_J = terrain_->work_on_bodies_J();
+  touched_ = touched_ || std::any_of(wrenches_.begin(), wrenches_.end(), [](const Wrench& wrench) {
+               return wrench.f_W_N.squaredNorm() > 0.0;
+             });
+}
+
+double Plant::lowest_point_m() const {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (std::size_t body = 0; body < motions_.size(); ++body) {
+    const Pose& pose = motions_[body].end;
+    const Eigen::Matrix3d R_WB = pose.q_WB.toRotationMatrix();
+    for (const Eigen::Vector3d& vertex : rig_->mesh(static_cast<int>(body)).vertices_m) {
+      lowest = std::min(lowest, pose.p_WB_m.z() + R_WB.row(2).dot(vertex));
+    }
+  }
+  return lowest;
+}
+
+void Plant::guard() const {
+  std::ostringstream cause;
+  const double speed_m_s = rig_->foot_velocity_m_s().norm();
+  const Eigen::Vector3d force_N = ground_force_N();
+  // Written so that NaN breaks each rule.
+  if (!force_N.allFinite()) {
+    cause << "the force of the ground is not a number";
+  } else if (!(speed_m_s <= settings_.speed_limit_m_s)) {
+    cause << "the foot moves at " << speed_m_s
+          << " m/s, above coupling.speed_limit_m_s = " << settings_.speed_limit_m_s;
+  } else if (!(exchange_energy_.error_J() <= settings_.energy_error_limit_J)) {
+    cause << "the exchange has made " << exchange_energy_.error_J()
+          << " J, above coupling.energy_error_limit_J = " << settings_.energy_error_limit_J;
+  } else {
+    return;
+  }
+  std::ostringstream text;
+  text << "diverged at " << time_s() << " s: " << cause.str()
+       << "; shorten coupling.exchange_us (now " << settings_.exchange_s * 1e6
+       << ") or make the foot heavier";
+  throw std::runtime_error(text.str());
+}
+
+}  // namespace hoof::sim
