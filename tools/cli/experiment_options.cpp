@@ -12,18 +12,21 @@ namespace {
 
 constexpr double kToeMax_deg = 40.0;  // the paper's widest opening and the foot's mechanical range
 
+const std::string kStlEnding = ".stl";
 const std::vector<std::string> kFeet = {"bionic", "bionic-plain", "traditional"};
 const std::vector<std::string> kBeds = {"demo", "bench", "paper"};
 
 // The settings that the flags stand for, spelled once.
-constexpr std::string_view kFootKey = "experiment.foot";
+constexpr std::string_view kFootKey = "use.foot";
+constexpr std::string_view kFootMeshKey = "foot.mesh_file";
+constexpr std::string_view kStlFoot = "stl";  // preset of sim/config/feet for any mesh
 constexpr std::string_view kLoadMassKey = "experiment.load_kg";
 constexpr std::string_view kLoadForceKey = "experiment.load_N";
 constexpr std::string_view kLoadAsKey = "experiment.load_as";
 constexpr std::string_view kSpeedKey = "experiment.speed_m_s";
 constexpr std::string_view kFrequencyKey = "experiment.frequency_Hz";
 constexpr std::string_view kToeKey = "experiment.toe_deg";
-constexpr std::string_view kBedKey = "experiment.bed";
+constexpr std::string_view kBedKey = "use.bed";
 constexpr std::string_view kTerrainKey = "experiment.terrain";
 constexpr std::string_view kDriveKey = "experiment.drive";
 constexpr std::string_view kBusKey = "experiment.bus";
@@ -142,7 +145,7 @@ std::string examples(Experiment experiment) {
 void add_experiment_options(CLI::App& command, ExperimentOptions& options, Experiment experiment) {
   command.add_option("--foot", options.foot, "bionic, bionic-plain, traditional or FILE.stl")
       ->type_name("FOOT")
-      ->check(name_or_file(kFeet, ".stl"));
+      ->check(name_or_file(kFeet, kStlEnding));
   command.add_option("--load", options.load, "On the foot: 40 or 40kg is a mass, 400N a force")
       ->type_name("LOAD")
       ->check(CLI::Validator(check_load, ""));
@@ -188,7 +191,9 @@ std::vector<std::string> settings_overrides(const ExperimentOptions& options) {
     if (!value.empty()) add(key, value);
   };
 
-  add_text(kFootKey, options.foot);
+  const bool is_mesh = options.foot.ends_with(kStlEnding);
+  add_text(kFootKey, is_mesh ? std::string(kStlFoot) : options.foot);
+  if (is_mesh) add_text(kFootMeshKey, options.foot);
   if (!options.load.empty()) {
     const auto [number, unit] = split_load(options.load);
     add(unit == "N" ? kLoadForceKey : kLoadMassKey, number);

@@ -31,7 +31,8 @@ struct ExperimentOptions {
 void add_experiment_options(CLI::App& command, ExperimentOptions& options, Experiment experiment);
 
 /// The flags as settings, "experiment.toe_deg=30": in the order above, those of --set last, so
-/// that a later entry wins. Text values are TOML strings, quoted and escaped.
+/// that a later entry wins. For sim::Settings::load_experiment. Text values are TOML strings,
+/// quoted and escaped.
 std::vector<std::string> settings_overrides(const ExperimentOptions& options);
 
 }  // namespace hoof::tools

@@ -7,6 +7,7 @@
 #include <iostream>
 #include <string>
 
+#include "sim/config/config_error.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/invocation.h"
 #include "tools/run/errors.h"
@@ -28,20 +29,16 @@ int complain(const std::string& message, ExitStatus status) {
   return complain(message, static_cast<int>(status));
 }
 
-// CLI11 reports an unknown command as "the following arguments were not expected".
+// Where the first word is no command CLI11 says "a subcommand is required", whatever it was.
 std::string explain(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
-  const auto commands = app.get_subcommands({});
+  const std::string first = argc > 1 ? argv[1] : "";
   std::string names;
-  bool known = false;
-  for (const CLI::App* command : commands) {
-    known |= argc > 1 && command->get_name() == argv[1];
+  for (const CLI::App* command : app.get_subcommands({})) {
+    if (command->get_name() == first) return first + ": " + error.what();
     names += (names.empty() ? "" : ", ") + command->get_name();
   }
-  if (argc < 2) return "no command given; known are " + names;
-  if (!known && argv[1][0] != '-') {
-    return "unknown command '" + std::string(argv[1]) + "'; known are " + names;
-  }
-  return std::string(known ? argv[1] : "") + (known ? ": " : "") + error.what();
+  if (first.empty()) return "no command given; known are " + names;
+  return "unknown command '" + first + "'; known are " + names;
 }
 
 int run_invocation(const Invocation& invocation) {
@@ -51,6 +48,8 @@ int run_invocation(const Invocation& invocation) {
   } catch (const Interrupted& stop) {
     return complain(stop.what(), stop.exit_status());
   } catch (const UserError& error) {
+    return complain(error.what(), ExitStatus::kUserError);
+  } catch (const hoof::sim::ConfigError& error) {
     return complain(error.what(), ExitStatus::kUserError);
   } catch (const std::exception& error) {
     return complain(error.what(), ExitStatus::kCannotFinish);

@@ -15,7 +15,9 @@ void add_run_options(CLI::App& command, RunOptions& options) {
   command.add_option("--out", options.out, "Folder of the run [runs/<experiment>-<date>-<n>]")
       ->type_name("DIR");
   command.add_flag("--force", options.force, "Replace an earlier run folder of the same name");
-  command.add_option("--seed", options.seed, "Seed of everything random")->type_name("S");
+  command.add_option("--seed", options.seed, "Seed of everything random")
+      ->type_name("S")
+      ->check(CLI::NonNegativeNumber);
   // 1024: a bound against slips of the finger; no machine in sight has more.
   command.add_option("--threads", options.threads, "Threads of the sand solver, 1..1024")
       ->type_name("N")

@@ -11,9 +11,9 @@ namespace hoof::tools {
 
 /// Flags that every command which makes a run folder has.
 struct RunOptions {
-  std::filesystem::path out;  ///< empty: runs/<experiment>-<date>-<n>
-  bool force = false;         ///< replace an earlier run folder of the same name
-  std::optional<std::uint64_t> seed;
+  std::filesystem::path out;         ///< empty: runs/<experiment>-<date>-<n>
+  bool force = false;                ///< replace an earlier run folder of the same name
+  std::optional<std::int64_t> seed;  ///< 0 or above; TOML has no larger integers
   std::optional<int> threads;
   std::vector<std::string> settings;  ///< each "key=value", as given by --set
   bool live = false;                  ///< telemetry over LCM while running

@@ -18,13 +18,13 @@ struct HeadlineRule {
 };
 
 constexpr std::array kRules = {
-    HeadlineRule{"Foot", Source::kSettings, "experiment", "foot"},
+    HeadlineRule{"Foot", Source::kSettings, "foot", "name"},
     HeadlineRule{"Load", Source::kSettings, "experiment", "load_kg"},
     HeadlineRule{"Load", Source::kSettings, "experiment", "load_N"},
     HeadlineRule{"Load acts as", Source::kSettings, "experiment", "load_as"},
     HeadlineRule{"Speed at first contact", Source::kSettings, "experiment", "speed_m_s"},
     HeadlineRule{"Stance frequency", Source::kSettings, "experiment", "frequency_Hz"},
-    HeadlineRule{"Bed", Source::kSettings, "experiment", "bed"},
+    HeadlineRule{"Bed", Source::kSettings, "bed", "name"},
     HeadlineRule{"Greatest depth", Source::kResult, "", "max_depth_m"},
     HeadlineRule{"Final depth", Source::kResult, "", "final_depth_m"},
     HeadlineRule{"Traction coefficient, Fx at its peak over Fz then", Source::kResult, "",
@@ -36,6 +36,8 @@ constexpr std::array kRules = {
     HeadlineRule{"Toe angle commanded, per side", Source::kResult, "", "toe_command_rad"},
     HeadlineRule{"Toe angle reached", Source::kResult, "", "toe_reached_rad"},
     HeadlineRule{"Toe deflection by the sand", Source::kResult, "", "toe_deflection_rad"},
+    HeadlineRule{"Peak torque", Source::kResult, "", "torque_peak_Nm"},
+    HeadlineRule{"Bus load", Source::kResult, "", "bus_load_ratio"},
     HeadlineRule{"Interventions of the torque gate", Source::kResult, "", "gate_interventions"},
 };
 
@@ -64,7 +66,14 @@ std::vector<HeadlineRow> headline(const RunData& data) {
     const std::string key(rule.key);
     const auto value = table->find(key);
     if (value == table->end()) continue;
-    rows.push_back(headline_row(std::string(rule.label), key, *value));
+    const std::string label(rule.label);
+    if (!value->is_object()) {
+      rows.push_back(headline_row(label, key, *value));
+      continue;
+    }
+    for (const auto& part : value->items()) {  // one value by joint, by bus
+      rows.push_back(headline_row(label + ", " + part.key(), key, part.value()));
+    }
   }
   return rows;
 }

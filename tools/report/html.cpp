@@ -1,5 +1,7 @@
 #include "tools/report/html.h"
 
+#include <cctype>
+
 namespace hoof::tools {
 
 std::string html_escape(std::string_view text) {
@@ -49,6 +51,13 @@ std::string element(std::string_view tag, std::string_view text, std::string_vie
   html += tag;
   html += '>';
   return html;
+}
+
+std::string capitalised(std::string text) {
+  if (!text.empty()) {
+    text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  }
+  return text;
 }
 
 }  // namespace hoof::tools

@@ -14,4 +14,7 @@ std::string json_for_script(std::string_view json);
 /// "<tag>escaped text</tag>"; `attributes` as " class=\"number\"", with its leading blank.
 std::string element(std::string_view tag, std::string_view text, std::string_view attributes = "");
 
+/// The first letter as a capital: "angular speed" -> "Angular speed".
+std::string capitalised(std::string text);
+
 }  // namespace hoof::tools

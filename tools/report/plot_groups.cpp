@@ -4,6 +4,8 @@
 #include <string_view>
 #include <utility>
 
+#include "tools/report/html.h"
+
 namespace hoof::tools {
 namespace {
 
@@ -31,10 +33,6 @@ bool matches(const PlotRule& rule, const SampleColumn& column, const DisplayUnit
   return false;
 }
 
-std::string other_title(const DisplayUnit& unit) {
-  return "Other " + (unit.quantity.empty() ? std::string("columns") : unit.quantity);
-}
-
 }  // namespace
 
 std::vector<PlotGroup> group_plots(const SampleTable& table) {
@@ -56,7 +54,7 @@ std::vector<PlotGroup> group_plots(const SampleTable& table) {
     }
     if (group == nullptr) {
       group = &others.emplace_back();
-      group->title = other_title(unit);
+      group->title = capitalised(unit.quantity.empty() ? "others" : unit.quantity);
     }
     group->unit = unit;
     group->columns.push_back(&column);

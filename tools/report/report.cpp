@@ -21,11 +21,9 @@ using Json = nlohmann::ordered_json;
 constexpr int kPlotDigits = 6;  // a plot of 2,000 pixels shows four; two more for zooming
 
 std::string title(const RunData& data) {
-  const auto experiment = data.result.find("experiment");
-  if (experiment == data.result.end() || !experiment->is_string()) return "Run";
-  std::string name = experiment->get<std::string>();
-  if (!name.empty() && name[0] >= 'a' && name[0] <= 'z') name[0] += 'A' - 'a';
-  return name + " test";
+  static const Json::json_pointer kKind("/experiment/kind");
+  if (!data.settings.contains(kKind) || !data.settings[kKind].is_string()) return "Run";
+  return capitalised(data.settings[kKind].get<std::string>()) + " test";
 }
 
 std::string headline_section(const RunData& data) {
@@ -103,8 +101,10 @@ std::string json_samples(const SampleTable& samples, const std::vector<PlotGroup
   for (std::size_t i = 0; i < groups.size(); ++i) {
     const PlotGroup& group = groups[i];
     json += i == 0 ? "{" : ",\n{";
-    json += "\"axis\":" + Json(group.unit.quantity).dump() +
-            ",\"unit\":" + Json(group.unit.symbol).dump() + ",\"series\":[";
+    const std::string axis =
+        group.columns.size() == 1 ? column_label(group.columns[0]->name) : group.unit.quantity;
+    json += "\"axis\":" + Json(axis).dump() + ",\"unit\":" + Json(group.unit.symbol).dump() +
+            ",\"series\":[";
     for (std::size_t c = 0; c < group.columns.size(); ++c) {
       const SampleColumn& column = *group.columns[c];
       json += (c == 0 ? "" : ",\n") + ("{\"label\":" + Json(column_label(column.name)).dump()) +

@@ -58,7 +58,9 @@ const ColumnUnit* find_column_unit(std::string_view name) {
 
 std::string column_label(std::string_view name) {
   const ColumnUnit* unit = find_column_unit(name);
-  std::string label(unit == nullptr ? name : name.substr(0, name.size() - unit->suffix.size() - 1));
+  // "grain count" needs its last word, "depth" does not need "metres".
+  const bool whole = unit == nullptr || unit->suffix == "count";
+  std::string label(whole ? name : name.substr(0, name.size() - unit->suffix.size() - 1));
   std::replace(label.begin(), label.end(), '_', ' ');
   return label;
 }

@@ -17,7 +17,8 @@ struct ColumnUnit {
 /// or nullptr where it spells none.
 const ColumnUnit* find_column_unit(std::string_view name);
 
-/// `name` without its unit, underscores as blanks: "toe_torque_Nm" -> "toe torque".
+/// `name` without its unit, underscores as blanks: "toe_torque_Nm" -> "toe torque",
+/// but "grain_count" -> "grain count".
 std::string column_label(std::string_view name);
 
 /// All units that names may end in, for tests and messages.

@@ -38,8 +38,8 @@ TEST_CASE("columns are put into plots by name and unit") {
                      "Depth [mm]: depth_m", "Forces on the foot [N]: fx_N fz_N",
                      "Toe angle [°]: toe_command_rad", "Joint angles [°]: hip_angle_rad",
                      "Joint torques [N m]: hip_torque_Nm knee_torque_Nm",
-                     "Other speed [m/s]: velocity_m_s speed_x_m_s", "Other length [mm]: carriage_m",
-                     "Other force [N]: plate_N"});
+                     "Speed [m/s]: velocity_m_s speed_x_m_s", "Length [mm]: carriage_m",
+                     "Force [N]: plate_N"});
 }
 
 TEST_CASE("the headline shows what the run has, in the reader's units") {
@@ -53,6 +53,8 @@ TEST_CASE("the headline shows what the run has, in the reader's units") {
   CHECK_THAT(rows, Catch::VectorContains(std::string("Load: 40 kg")));
   CHECK_THAT(rows, Catch::VectorContains(std::string("Greatest depth: 13.81 mm")));
   CHECK_THAT(rows, Catch::VectorContains(std::string("Toe angle commanded, per side: 30 °")));
+  CHECK_THAT(rows, Catch::VectorContains(std::string("Peak torque, hip: 39 N m")));
+  CHECK_THAT(rows, Catch::VectorContains(std::string("Bus load, bus1: 47 %")));
   for (const std::string& row : rows) CHECK_THAT(row, !Contains("raction coefficient"));
 }
 

@@ -80,11 +80,11 @@ void write_samples(const std::filesystem::path& path, int sample_count) {
 
 void write_synthetic_run(const std::filesystem::path& folder, int sample_count) {
   tools::write_file(folder / "settings.toml",
-                    "schema_version = 1\n\n[experiment]\nfoot = \"bionic\"\nload_kg = 40.0\n"
-                    "load_as = \"force\"\nspeed_m_s = 0.1\ntoe_deg = 30.0\nbed = \"demo\"\n"
+                    "[experiment]\nkind = \"sinkage\"\nload_kg = 40.0\n"
+                    "load_as = \"force\"\nspeed_m_s = 0.1\ntoe_deg = 30.0\n\n[foot]\nname = "
+                    "\"bionic\"\n\n[bed]\nname = \"demo\"\n"
                     "note = \"</script><b>&\"\n");
   nlohmann::ordered_json result;
-  result["experiment"] = "sinkage";
   result["frames"] = 12000;
   result["ticks"] = sample_count;
   result["max_depth_m"] = 0.013812345;

@@ -82,6 +82,7 @@ TEST_CASE("the unit is the longest that the name ends in") {
   CHECK(find_column_unit("_m") == nullptr);
   CHECK(column_label("toe_torque_Nm") == "toe torque");
   CHECK(column_label("velocity_m_s") == "velocity");
+  CHECK(column_label("grain_count") == "grain count");
   CHECK(column_label("frames") == "frames");
 }
 

@@ -75,7 +75,7 @@ TEST_CASE("an earlier run is kept unless --force is given") {
   CHECK(names_in(scratch.path()) == std::vector<std::string>{"run"});
 }
 
-TEST_CASE("--force does not replace what is no run folder") {
+TEST_CASE("force does not replace what is no run folder") {
   const ScratchFolder scratch;
   fs::create_directory(scratch.path() / "thesis");
   write_file(scratch.path() / "thesis" / "chapter1.tex", "years of work");

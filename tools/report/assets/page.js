@@ -1,6 +1,6 @@
 "use strict";
 // Draws the plots of report.html from the JSON in the element "samples":
-// { time_s: [...], plots: [{ title, axis, unit, series: [{ label, values }] }],
+// { time_s: [...], plots: [{ axis, unit, series: [{ label, values }] }],
 //   phases: [{ time_s, name }] }. Values are in the unit of their plot; null means no value.
 (() => {
   const samples = JSON.parse(document.getElementById("samples").textContent);
@@ -24,6 +24,7 @@
     ctx.font = `${11 * devicePixelRatio}px system-ui, sans-serif`;
     ctx.setLineDash([4 * devicePixelRatio, 4 * devicePixelRatio]);
     ctx.textBaseline = "top";
+    ctx.textAlign = "left";
     for (const phase of samples.phases) {
       const x = plot.valToPos(phase.time_s, "x", true);
       ctx.beginPath();
@@ -37,7 +38,8 @@
 
   function axis(label) {
     const grid = { stroke: colour("--line"), width: 1 };
-    return { label, stroke: colour("--ink"), grid, ticks: grid, labelSize: 22 };
+    const values = (_, ticks) => ticks.map(shown);  // uPlot's own rounds 0.0001 to 0
+    return { label, values, stroke: colour("--ink"), grid, ticks: grid, labelSize: 22 };
   }
 
   function draw(description, box) {
@@ -48,12 +50,13 @@
       width: 1.5,
       value: (_, value) => shown(value),
     }));
+    const label = description.axis + (description.unit ? ` [${description.unit}]` : "");
     const options = {
       width: box.clientWidth,
       height: plotHeight_px,
       scales: { x: { time: false } },
       cursor: { sync: { key: "time" } },
-      axes: [axis("time [s]"), { ...axis(`${description.axis} [${description.unit}]`), size: axisWidth_px }],
+      axes: [axis("time [s]"), { ...axis(label), size: axisWidth_px }],
       series: [{ label: "time", value: (_, value) => shown(value) }, ...series],
       hooks: { drawAxes: [drawPhases] },
     };

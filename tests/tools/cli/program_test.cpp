@@ -1,0 +1,91 @@
+// Drives the program itself: exit statuses and what it prints.
+
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <array>
+#include <catch2/catch.hpp>
+#include <cstdio>
+#include <string>
+
+#include "tests/tools/report/synthetic_run.h"
+#include "tests/tools/run/scratch_folder.h"
+
+namespace {
+
+struct Outcome {
+  int status = 0;
+  std::string text;
+};
+
+// `redirection` picks what is read: the default, standard error only.
+Outcome hoof_program(const std::string& arguments,
+                     const std::string& redirection = "2>&1 >/dev/null") {
+  const std::string command = std::string(HOOF_PROGRAM) + " " + arguments + " " + redirection;
+  std::FILE* pipe = popen(command.c_str(), "r");
+  REQUIRE(pipe != nullptr);
+  Outcome outcome;
+  std::array<char, 4096> block;
+  std::size_t count = 0;
+  while ((count = std::fread(block.data(), 1, block.size(), pipe)) > 0) {
+    outcome.text.append(block.data(), count);
+  }
+  outcome.status = WEXITSTATUS(pclose(pipe));
+  return outcome;
+}
+
+}  // namespace
+
+TEST_CASE("bad input is one line on standard error and exit status 2") {
+  const hoof::tests::ScratchFolder scratch;
+  const std::string absent = (scratch.path() / "absent").string();
+  struct Case {
+    std::string arguments;
+    const char* complaint;
+  };
+  const std::vector<Case> cases = {
+      {"", "no command given; known are"},
+      {"dance", "unknown command 'dance'; known are"},
+      {"--loud", "--loud"},
+      {"version --loud", "version: "},
+      {"report", "report: RUN_DIR is required"},
+      {"report " + absent, "absent: is no run folder"},
+      {"report " + scratch.path().string(), "result.json: cannot read: No such file"},
+  };
+  for (const Case& c : cases) {
+    CAPTURE(c.arguments);
+    const Outcome outcome = hoof_program(c.arguments);
+    CHECK(outcome.status == 2);
+    CHECK_THAT(outcome.text, Catch::StartsWith("hoof: ") && Catch::Contains(c.complaint));
+    CHECK(std::count(outcome.text.begin(), outcome.text.end(), '\n') == 1);
+  }
+}
+
+TEST_CASE("every command has help with an example") {
+  const Outcome overview = hoof_program("--help", "");
+  CHECK(overview.status == 0);
+  const std::size_t first = overview.text.find("Subcommands:\n");
+  REQUIRE(first != std::string::npos);
+  int commands = 0;
+  std::size_t line = overview.text.find('\n', first) + 1;
+  while (overview.text.compare(line, 2, "  ") == 0) {
+    const std::string name =
+        overview.text.substr(line + 2, overview.text.find(' ', line + 2) - line - 2);
+    CAPTURE(name);
+    const Outcome help = hoof_program(name + " --help", "");
+    CHECK(help.status == 0);
+    CHECK_THAT(help.text, Catch::Contains("Example") && Catch::Contains("  hoof " + name));
+    line = overview.text.find('\n', line) + 1;
+    ++commands;
+  }
+  CHECK(commands >= 2);
+}
+
+TEST_CASE("a report is made again and its path printed") {
+  const hoof::tests::ScratchFolder scratch;
+  hoof::tests::write_synthetic_run(scratch.path(), 20);
+  const Outcome outcome = hoof_program("report " + scratch.path().string(), "");
+  CHECK(outcome.status == 0);
+  CHECK(outcome.text == (scratch.path() / "report.html").string() + "\n");
+  CHECK(std::filesystem::exists(scratch.path() / "report.html"));
+}
