@@ -25,8 +25,7 @@ class ControlLoop {
  public:
   using Buses = std::array<hal::CanBus*, protocol::kBusCount>;
 
-  /// @param buses both must outlive the loop; bus 1 may be the same object as bus 0 when all
-  ///        drives share one bus
+  /// @param buses two connections, which must outlive the loop; they may lead to one wire
   ControlLoop(Buses buses, const hal::Clock& clock, const Parameters& parameters);
   ControlLoop(const ControlLoop&) = delete;
   ControlLoop& operator=(const ControlLoop&) = delete;

@@ -3,11 +3,12 @@
 #include <atomic>
 #include <csignal>
 #include <iostream>
-#include <memory>
+#include <string>
 
 #include "firmware/app/control_loop.h"
 #include "firmware/board/host/options.h"
 #include "firmware/board/host/scaled_clock.h"
+#include "firmware/protocol/dictionary.h"
 #include "hal/socketcan/socketcan_bus.h"
 
 namespace {
@@ -42,15 +43,23 @@ void run(app::ControlLoop& loop, hoof::hal::SocketCanBus& bus0) {
   loop.release_drives();
 }
 
-int start(const board::Options& options) {
-  hoof::hal::SocketCanBus bus0({.interface = options.bus0});
-  std::unique_ptr<hoof::hal::SocketCanBus> bus1;
-  if (options.bus1 != options.bus0) {
-    bus1 = std::make_unique<hoof::hal::SocketCanBus>(
-        hoof::hal::SocketCanSettings{.interface = options.bus1});
+/// Only what the dictionary says is for the foot on that bus: with one interface for both buses the
+/// two connections must not see each other's frames.
+hoof::hal::SocketCanSettings connection(const std::string& interface, protocol::BusMask bus) {
+  hoof::hal::SocketCanSettings settings;
+  settings.interface = interface;
+  for (const protocol::MessageSpec& message : protocol::kMessages) {
+    if (message.receiver != protocol::Node::kFoot || (message.buses & bus) == 0) continue;
+    settings.filters.push_back({.id = message.id, .mask = 0x7FF});
   }
+  return settings;
+}
+
+int start(const board::Options& options) {
+  hoof::hal::SocketCanBus bus0(connection(options.bus0, protocol::kBus0));
+  hoof::hal::SocketCanBus bus1(connection(options.bus1, protocol::kBus1));
   const board::ScaledClock clock(options.slow_down);
-  app::ControlLoop loop({&bus0, bus1 ? bus1.get() : &bus0}, clock, options.parameters);
+  app::ControlLoop loop({&bus0, &bus1}, clock, options.parameters);
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   run(loop, bus0);
