@@ -19,6 +19,7 @@ constexpr std::array kPureKeys = {
     "count",                // of spines, grains
     "cycles",               // of the stance ellipse
     "encoder_counts_turn",  // counts in a turn of the motor
+    "friction",             // coefficient of Coulomb friction
     "middle_count_row",     // spines in a row
     "poisson",              // Poisson's ratio
     "restitution",          // speed after over speed before
