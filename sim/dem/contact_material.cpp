@@ -6,17 +6,17 @@
 namespace hoof::sim {
 namespace {
 
-double shear_modulus_Pa(const Material& m) {
+double shear_modulus_Pa(const ElasticMaterial& m) {
   return m.young_modulus_Pa / (2 * (1 + m.poisson_ratio));
 }
 
 }  // namespace
 
-PairLaw<double> make_pair_law(const Material& a, const Material& b, const ContactPair& pair) {
-  const auto plane_compliance = [](const Material& m) {
+PairLaw<double> make_pair_law(const ElasticMaterial& a, const ElasticMaterial& b, const PairCoefficients& pair) {
+  const auto plane_compliance = [](const ElasticMaterial& m) {
     return (1 - m.poisson_ratio * m.poisson_ratio) / m.young_modulus_Pa;
   };
-  const auto shear_compliance = [](const Material& m) {
+  const auto shear_compliance = [](const ElasticMaterial& m) {
     return (2 - m.poisson_ratio) / shear_modulus_Pa(m);
   };
   const double ln_e = std::log(pair.restitution);
@@ -26,7 +26,7 @@ PairLaw<double> make_pair_law(const Material& a, const Material& b, const Contac
           pair.static_friction, pair.rolling_friction};
 }
 
-double rayleigh_time_s(const Material& m, double radius_m) {
+double rayleigh_time_s(const ElasticMaterial& m, double radius_m) {
   return std::numbers::pi * radius_m * std::sqrt(m.density_kg_m3 / shear_modulus_Pa(m)) /
          (0.1631 * m.poisson_ratio + 0.8766);
 }

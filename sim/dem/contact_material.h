@@ -5,21 +5,21 @@
 
 namespace hoof::sim {
 
-struct Material {
+struct ElasticMaterial {
   double young_modulus_Pa = 0;
   double poisson_ratio = 0;
   double density_kg_m3 = 0;
 };
 
 /// How two materials meet.
-struct ContactPair {
+struct PairCoefficients {
   double restitution = 1;       // e, 0 < e <= 1
   double static_friction = 0;   // mu_s
   double rolling_friction = 0;  // mu_r
 };
 
 /// The constants of contact_law.h for materials a and b, computed in double.
-PairLaw<double> make_pair_law(const Material& a, const Material& b, const ContactPair& pair);
+PairLaw<double> make_pair_law(const ElasticMaterial& a, const ElasticMaterial& b, const PairCoefficients& pair);
 
 template <typename Real>
 PairLaw<Real> cast_pair_law(const PairLaw<double>& law) {
@@ -29,6 +29,6 @@ PairLaw<Real> cast_pair_law(const PairLaw<double>& law) {
 
 /// Rayleigh time of a grain, s: the usual bound of a DEM step, pi R sqrt(rho/G) / (0.1631 nu +
 /// 0.8766) (Thornton and Randall 1988; the paper's 4.17e-6 s is 20 % of it at R = 1 mm).
-double rayleigh_time_s(const Material& material, double radius_m);
+double rayleigh_time_s(const ElasticMaterial& material, double radius_m);
 
 }  // namespace hoof::sim

@@ -18,7 +18,7 @@ BoundarySettings boundary_settings(const DemSettings& s) {
           s.rolling_law, s.walls, s.skin_m};
 }
 
-void require_pair(const ContactPair& pair, const std::string& name) {
+void require_pair(const PairCoefficients& pair, const std::string& name) {
   require(pair.restitution > 0 && pair.restitution <= 1,
           name + ".restitution = " + std::to_string(pair.restitution) + ", must be in (0, 1]");
   require(pair.static_friction >= 0, name + ".static_friction must not be negative");
@@ -109,7 +109,7 @@ BedHealth SandBed::health() const {
   return impl_->health;
 }
 
-void SandBed::set_contact_pairs(const ContactPair& grain_grain, const ContactPair& grain_wall) {
+void SandBed::set_contact_pairs(const PairCoefficients& grain_grain, const PairCoefficients& grain_wall) {
   require_pair(grain_grain, "grain_grain");
   require_pair(grain_wall, "grain_wall");
   impl_->settings.grain_grain = grain_grain;

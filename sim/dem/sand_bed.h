@@ -23,10 +23,10 @@ struct DemSettings {
   std::array<bool, 3> periodic{};
   std::vector<Wall> walls;
 
-  Material grain_material;
-  Material wall_material;  // of walls and meshes
-  ContactPair grain_grain;
-  ContactPair grain_wall;
+  ElasticMaterial grain_material;
+  ElasticMaterial wall_material;  // of walls and meshes
+  PairCoefficients grain_grain;
+  PairCoefficients grain_wall;
   CoulombCap coulomb_cap = CoulombCap::kTotalNormal;
   RollingLaw rolling_law = RollingLaw::kOwnSpin;
 
@@ -75,7 +75,7 @@ class SandBed {
   const DemSettings& settings() const;
 
   /// Friction off and on while a bed is made. Contact histories stay.
-  void set_contact_pairs(const ContactPair& grain_grain, const ContactPair& grain_wall);
+  void set_contact_pairs(const PairCoefficients& grain_grain, const PairCoefficients& grain_wall);
   void set_viscous_rate(double rate_1_s);
 
   double kinetic_energy_J() const;

@@ -1,0 +1,25 @@
+// A settled bed on disk: text header, then raw little-endian numbers, then a checksum of it all.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "sim/dem/grain.h"
+
+namespace hoof::sim {
+
+/// FNV-1a, 64 bits.
+std::uint64_t fnv1a(const void* bytes, std::size_t size, std::uint64_t hash = 0xcbf29ce484222325u);
+
+/// Writes to a temporary file beside and renames it: a bed file is whole or not there.
+/// @param key what the bed was made from; read_bed_file can ask for it
+/// @throws std::runtime_error naming the file and the cause (no room, no permission)
+void write_bed_file(const std::filesystem::path& file, const std::string& key,
+                    const BedState& state);
+
+/// @throws std::runtime_error naming the file: not a bed, truncated, damaged, or made from another
+/// key
+BedState read_bed_file(const std::filesystem::path& file, const std::string& key);
+
+}  // namespace hoof::sim

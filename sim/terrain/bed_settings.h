@@ -1,0 +1,53 @@
+// What a bed of sand is made of and how: grading, box, packing.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/config/materials.h"
+#include "sim/config/reader.h"
+#include "sim/dem/sand_bed.h"
+
+namespace hoof::sim {
+
+/// One sieve class: mass uniform in diameter between the two sizes.
+struct SieveClass {
+  double low_m = 0;
+  double high_m = 0;
+  double mass_share = 0;
+};
+
+/// The bed stands on its floor z = -depth_m, centred about x = y = 0, its level surface z = 0.
+struct BedSettings {
+  std::string name;
+  double box_length_m = 0;  // x
+  double box_width_m = 0;   // y
+  double depth_m = 0;
+  bool periodic_sides = false;
+  std::vector<SieveClass> sieve;
+  double grain_scale = 1;  // diameters of the table times this
+  int steps_per_ms = 360;
+  double skin_m = 2e-4;
+  double packing_friction = 0.15;  // mu_s while the grains rain down
+  double overfill = 1.08;          // solids poured over solids of the levelled bed
+  CoulombCap coulomb_cap = CoulombCap::kTotalNormal;
+  RollingLaw rolling_law = RollingLaw::kOwnSpin;
+  Precision precision = Precision::kMixed;
+
+  double step_s() const { return 1e-3 / steps_per_ms; }
+  double smallest_diameter_m() const { return grain_scale * sieve.front().low_m; }
+  double largest_diameter_m() const { return grain_scale * sieve.back().high_m; }
+  /// Half of the mass is in smaller grains.
+  double d50_m() const;
+
+  /// @throws std::invalid_argument naming the first broken rule, value and bound
+  void validate() const;
+};
+
+/// Reads the section "bed" of a run. @throws ConfigError
+BedSettings read_bed(Reader section);
+
+/// Constants for the engine: domain, walls (floor first, then -x +x -y +y) and laws.
+DemSettings dem_settings(const BedSettings& bed, const Materials& materials, int threads);
+
+}  // namespace hoof::sim

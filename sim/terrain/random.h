@@ -1,0 +1,30 @@
+// Random numbers with the same sequence on every machine and compiler, which the standard library's
+// distributions do not promise.
+#pragma once
+
+#include <cstdint>
+
+namespace hoof::sim {
+
+/// SplitMix64 (Steele, Lea and Flood 2014): 64 bits of state, any seed is good.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : state_(seed) {}
+
+  std::uint64_t next() {
+    state_ += 0x9e3779b97f4a7c15u;
+    std::uint64_t z = state_;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+  }
+
+  /// In [0, 1), 53 bits.
+  double unit() { return double(next() >> 11) * 0x1p-53; }
+  double between(double low, double high) { return low + (high - low) * unit(); }
+
+ private:
+  std::uint64_t state_;
+};
+
+}  // namespace hoof::sim
