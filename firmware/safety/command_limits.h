@@ -18,8 +18,9 @@ bool is_pure_damping(const control::JointCommand& command);
 LimitBits limit_targets(const JointLimits& limits, const control::JointState& state,
                         control::JointCommand& command);
 
-/// Limits the torque that the drive will make of the command at the measured state, first its
-/// change against `previous_Nm`, then its size. Pure damping may change at any rate.
+/// Limits the torque that the drive will make of the command at the measured state: the
+/// feed-forward to what the wire carries, the whole to the ceiling, its change against
+/// `previous_Nm` (itself within the ceiling) to the rate. Pure damping may set in at any rate.
 LimitBits limit_torque(const JointLimits& limits, const control::JointState& state,
                        float previous_Nm, control::JointCommand& command);
 

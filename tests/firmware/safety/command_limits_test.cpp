@@ -1,0 +1,129 @@
+#include "firmware/safety/command_limits.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <random>
+
+using namespace hoof::firmware;
+using namespace hoof::firmware::safety;
+using control::JointCommand;
+using control::JointState;
+
+namespace {
+
+constexpr const JointLimits& kHip = kLimits[1];
+
+JointState measured(float position_rad, float velocity_rad_s, bool referenced = true) {
+  JointState state;
+  state.position_rad = position_rad;
+  state.velocity_rad_s = velocity_rad_s;
+  state.received = true;
+  state.referenced = referenced;
+  return state;
+}
+
+}  // namespace
+
+TEST_CASE("A harmless command passes every limit untouched") {
+  JointCommand c{0.02f, 0.5f, 1000.0f, 100.0f, 30.0f};
+  const JointCommand before = c;
+  CHECK(limit_targets(kHip, measured(0.0f, 0.4f), c) == 0);
+  CHECK(limit_torque(kHip, measured(0.0f, 0.4f), 20.0f, c) == 0);
+  CHECK(c.position_rad == before.position_rad);
+  CHECK(c.torque_Nm == before.torque_Nm);
+}
+
+TEST_CASE("Each limit of the targets cuts on both sides and names itself") {
+  struct Case {
+    JointCommand command;
+    JointState state;
+    LimitBits bits;
+    JointCommand expected;
+  };
+  const Case cases[] = {
+      {{0, 0, 30000, 0, 0}, measured(0, 0), limit::kGain, {0, 0, 20000, 0, 0}},
+      {{0, 0, -1, 0, 0}, measured(0, 0), limit::kGain, {0, 0, 0, 0, 0}},
+      {{0, 0, 0, 600, 0}, measured(0, 0), limit::kGain, {0, 0, 0, 500, 0}},
+      {{0, 0, 0, -2, 0}, measured(0, 0), limit::kGain, {0, 0, 0, 0, 0}},
+      {{0, 7, 0, 1, 0}, measured(0, 0), limit::kVelocity, {0, 5, 0, 1, 0}},
+      {{0, -7, 0, 1, 0}, measured(0, 0), limit::kVelocity, {0, -5, 0, 1, 0}},
+      {{0.5f, 0, 10, 0, 0}, measured(0, 0), limit::kDistance, {0.1f, 0, 10, 0, 0}},
+      {{-0.5f, 0, 10, 0, 0}, measured(0, 0), limit::kDistance, {-0.1f, 0, 10, 0, 0}},
+      {{1.7f, 0, 10, 0, 0}, measured(1.58f, 0), limit::kTravel, {1.6f, 0, 10, 0, 0}},
+      {{-1.3f, 0, 10, 0, 0}, measured(-1.15f, 0), limit::kTravel, {-1.2f, 0, 10, 0, 0}},
+      // Without a known zero there is no travel; without stiffness no position.
+      {{1.7f, 0, 10, 0, 0}, measured(1.65f, 0, false), 0, {1.7f, 0, 10, 0, 0}},
+      {{9.0f, 0, 0, 1, 0}, measured(0, 0), 0, {9.0f, 0, 0, 1, 0}},
+  };
+  for (const Case& test : cases) {
+    JointCommand c = test.command;
+    CHECK(limit_targets(kHip, test.state, c) == test.bits);
+    CHECK(c.position_rad == Approx(test.expected.position_rad));
+    CHECK(c.velocity_rad_s == test.expected.velocity_rad_s);
+    CHECK(c.kp_Nm_rad == test.expected.kp_Nm_rad);
+    CHECK(c.kd_Nm_s_rad == test.expected.kd_Nm_s_rad);
+  }
+}
+
+TEST_CASE("The limit is on the whole torque, not on its parts") {
+  // 1500 from stiffness and -1400 feed-forward make 100: nothing to cut but the wire's range.
+  JointCommand c{0.1f, 0.0f, 4000.0f, 0.0f, -300.0f};
+  CHECK(limit_torque(kHip, measured(0.0f, 0.0f), 100.0f, c) == 0);
+  // 400 - 0 = 400 > 350: cut by feed-forward, stiffness kept.
+  c = {0.1f, 0.0f, 4000.0f, 0.0f, 0.0f};
+  CHECK(limit_torque(kHip, measured(0.0f, 0.0f), 350.0f, c) == limit::kTorque);
+  CHECK(c.kp_Nm_rad == 4000.0f);
+  CHECK(c.position_rad == 0.1f);
+  CHECK(c.torque_Nm == Approx(-50.0f));
+}
+
+TEST_CASE("Pure damping may set in at once, but is bound by the ceiling") {
+  JointCommand c{.kd_Nm_s_rad = 200.0f};
+  CHECK(limit_torque(kHip, measured(0.0f, 1.0f), 200.0f, c) == 0);
+  CHECK(c.torque_Nm == 0.0f);
+  CHECK(limit_torque(kHip, measured(0.0f, 4.0f), 0.0f, c) == limit::kTorque);
+  CHECK(predicted_torque_Nm(c, measured(0.0f, 4.0f)) == Approx(-350.0f));
+}
+
+TEST_CASE("Whatever finite command comes, the torque made of it keeps ceiling and rate") {
+  const unsigned seed = 11;
+  INFO("seed " << seed);
+  std::mt19937 random(seed);
+  const auto in = [&](float a, float b) {
+    return std::uniform_real_distribution<float>(a, b)(random);
+  };
+  for (int n = 0; n < 200000; ++n) {
+    const std::size_t joint = random() % 3;
+    const JointLimits& limits = kLimits[joint];
+    const JointState state = measured(in(-1, 1), in(-15, 15), random() % 2 == 0);
+    JointCommand c{in(-3, 3), in(-50, 50), in(-100, 30000), in(-10, 800), in(-900, 900)};
+    const float previous_Nm = in(-limits.torque_Nm, limits.torque_Nm);
+    CAPTURE(joint, state.position_rad, state.velocity_rad_s, c.position_rad, c.velocity_rad_s,
+            c.kp_Nm_rad, c.kd_Nm_s_rad, c.torque_Nm, previous_Nm);
+    limit_targets(limits, state, c);
+    limit_torque(limits, state, previous_Nm, c);
+    const float torque_Nm = predicted_torque_Nm(c, state);
+    // Terms of up to 1e4 Nm that cancel: float carries 1e-3 Nm of them.
+    const float rounding_Nm = 4e-3f;
+    REQUIRE(std::abs(torque_Nm) <= limits.torque_Nm + rounding_Nm);
+    REQUIRE(std::abs(torque_Nm - previous_Nm) <=
+            limits.torque_rate_Nm_s * control::kTick_s + rounding_Nm);
+    REQUIRE(std::abs(c.torque_Nm) <= limits.feed_forward_Nm);
+    REQUIRE((c.kp_Nm_rad >= 0.0f && c.kp_Nm_rad <= limits.kp_Nm_rad));
+    REQUIRE((c.kd_Nm_s_rad >= 0.0f && c.kd_Nm_s_rad <= limits.kd_Nm_s_rad));
+  }
+}
+
+TEST_CASE("Numbers that are none are told from numbers, in every field") {
+  const float bad[] = {std::nanf(""), std::numeric_limits<float>::infinity(),
+                       -std::numeric_limits<float>::infinity()};
+  CHECK(is_finite(JointCommand{}));
+  for (const float value : bad) {
+    CHECK_FALSE(is_finite(JointCommand{value, 0, 0, 0, 0}));
+    CHECK_FALSE(is_finite(JointCommand{0, value, 0, 0, 0}));
+    CHECK_FALSE(is_finite(JointCommand{0, 0, value, 0, 0}));
+    CHECK_FALSE(is_finite(JointCommand{0, 0, 0, value, 0}));
+    CHECK_FALSE(is_finite(JointCommand{0, 0, 0, 0, value}));
+  }
+}
