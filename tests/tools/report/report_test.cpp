@@ -106,3 +106,11 @@ TEST_CASE("values that are not numbers become gaps, not broken JSON") {
   write_file(scratch.path() / "samples.csv", "time_s,depth_m\n0,nan\n0.001,0.002\n");
   CHECK_THAT(make_report(scratch.path()), Contains("\"values\":[null,2]"));
 }
+
+TEST_CASE("text of the samples cannot end the script that holds it") {
+  const ScratchFolder scratch;
+  write_synthetic_run(scratch.path(), 3);
+  write_file(scratch.path() / "samples.csv", "time_s,phase_name,depth_m\n0,</script><b>,1\n");
+  const std::string page = make_report(scratch.path());
+  CHECK_THAT(page, Contains("\\u003c/script>\\u003cb>") && !Contains("</script><b>"));
+}
