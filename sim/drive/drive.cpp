@@ -21,7 +21,7 @@ Drive::Drive(const DriveSettings& settings, double joint_position_rad)
     : settings_(settings),
       position_rad_(joint_position_rad),
       temperature_C_(settings.ambient_C),
-      last_joint_position_rad_(joint_position_rad) {
+      joint_position_rad_(joint_position_rad) {
   settings_.validate();
   if (!settings_.absolute_position) zero();
   sampled_position_rad_ = encoder_position_rad();
@@ -108,8 +108,7 @@ double Drive::rotor_substep(double h_s, double q_j, double w_j) {
   const double mean = 0.5 * (start + w);
   energy_.motor_J += motor_torque_Nm_ * mean * h_s;
   energy_.friction_J += friction_Nm * mean * h_s;
-  energy_.gear_damping_J += damper_Nm * (w - w_j) * h_s;
-  energy_.joint_J += gear_Nm * w_j * h_s;
+  energy_.gear_damping_J += damper_Nm * (mean - w_j) * h_s;
   return gear_Nm;
 }
 
@@ -122,19 +121,29 @@ void Drive::warm_up(double dt_s) {
 }
 
 double Drive::step(double dt_s, double joint_position_rad, double joint_velocity_rad_s) {
+  // The joint's work in the step before is known only now that its velocity after it is.
+  energy_.joint_J += joint_torque_Nm_ * 0.5 * (joint_velocity_rad_s_ + joint_velocity_rad_s) * dt_s;
+  joint_velocity_rad_s_ = joint_velocity_rad_s;
+
   sample_encoder(dt_s);
   motor_torque_Nm_ = limited_torque_Nm(law_torque_Nm());
   command_age_s_ += dt_s;
 
+  // The multibody side is a leapfrog: the torque of this step takes its velocity from half a step
+  // before the given position to half a step after it. So the sub-steps, leapfrogs themselves, lie
+  // evenly about that position; a shift by half a step would damp or drive the gear's own swing
+  // with k dt / 2, a quarter of the toe's own damping.
   const double h_s = dt_s / kSubsteps;
+  const double first_rad = joint_position_rad - 0.5 * (kSubsteps - 1) * h_s * joint_velocity_rad_s;
   double sum_Nm = 0.0;
   for (int i = 0; i < kSubsteps; ++i) {
-    const double q_j = joint_position_rad + joint_velocity_rad_s * h_s * i;
+    const double q_j = first_rad + joint_velocity_rad_s * h_s * i;
     sum_Nm += rotor_substep(h_s, q_j, joint_velocity_rad_s);
   }
-  last_joint_position_rad_ = joint_position_rad + joint_velocity_rad_s * dt_s;
+  joint_position_rad_ = first_rad + joint_velocity_rad_s * dt_s;
+  joint_torque_Nm_ = sum_Nm / kSubsteps;
   warm_up(dt_s);
-  return sum_Nm / kSubsteps;
+  return joint_torque_Nm_;
 }
 
 DriveReading Drive::reading() const {
@@ -143,7 +152,7 @@ DriveReading Drive::reading() const {
 
 DriveEnergy Drive::energy() const {
   DriveEnergy energy = energy_;
-  const double twist = position_rad_ - last_joint_position_rad_;
+  const double twist = position_rad_ - joint_position_rad_;
   energy.kinetic_J = 0.5 * settings_.rotor_inertia_kg_m2 * velocity_rad_s_ * velocity_rad_s_;
   energy.spring_J = 0.5 * settings_.gear_stiffness_Nm_rad * twist * twist;
   return energy;

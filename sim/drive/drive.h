@@ -36,7 +36,7 @@ struct DriveReading {
 struct DriveEnergy {
   /// Work of the motor torque on the rotor.
   double motor_J = 0.0;
-  /// Work of the gear on the joint.
+  /// Work of the gear on the joint, up to the start of the last step.
   double joint_J = 0.0;
   double friction_J = 0.0;
   double gear_damping_J = 0.0;
@@ -103,7 +103,10 @@ class Drive {
   double sampled_velocity_rad_s_ = 0.0;
   double motor_torque_Nm_ = 0.0;
   double temperature_C_;
-  double last_joint_position_rad_;
+  /// Joint as of the last step, and the mean gear torque in it.
+  double joint_position_rad_;
+  double joint_velocity_rad_s_ = 0.0;
+  double joint_torque_Nm_ = 0.0;
   DriveEnergy energy_;
 };
 
