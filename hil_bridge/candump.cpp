@@ -70,7 +70,7 @@ class LineParser {
 
   /// "(sec.frac)"
   std::int64_t stamp_ns(std::string_view word) const {
-    if (word.size() < 5 || word.front() != '(' || word.back() != ')') {
+    if (word.size() < 3 || word.front() != '(' || word.back() != ')') {
       fail("expected a time such as (1767225600.000000), found '" + std::string(word) + "'");
     }
     word = word.substr(1, word.size() - 2);

@@ -175,7 +175,7 @@ void SocketCanBus::configure() {
   address.can_family = AF_CAN;
   address.can_ifindex = index;
   if (bind(fd_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
-    fail("cannot listen on it", errno);
+    fail(errno == ENODEV ? "this is no CAN interface" : "cannot listen on it", errno);
   }
 }
 

@@ -252,7 +252,7 @@ TEST_CASE("what is wrong with an interface is said by name, with the cure", "[so
   settings.interface = "an-interface-name-too-long";
   CHECK_THROWS_AS(SocketCanBus(settings), std::runtime_error);
   settings.interface = "lo";  // exists, is up, is no CAN
-  CHECK_THROWS_WITH(SocketCanBus(settings), Catch::Contains("lo: "));
+  CHECK_THROWS_WITH(SocketCanBus(settings), Catch::Contains("lo: this is no CAN interface"));
 }
 
 }  // namespace hoof::hal
