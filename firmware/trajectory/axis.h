@@ -19,6 +19,9 @@ class Axis {
     const AxisLimits<Real>& limits = axis.limits;
     const bool position = interface == Interface::kPosition;
     brake_ = {};
+    at_target_ = position && axis.displacement == 0 && axis.velocity == axis.target_velocity &&
+                 axis.acceleration == axis.target_acceleration;
+    stays_ = false;
     if (limits.max_jerk == 0 || limits.max_acceleration == 0 || limits.min_acceleration == 0) {
       kind_ = Kind::kConstant;
       constant_.prepare(interface, axis);
@@ -44,6 +47,9 @@ class Axis {
 
   // The first feasible duration >= from_s (equal to it when that one is feasible), or kNever.
   Real first_feasible(Real from_s) {
+    // Nothing to do takes no time, even where holding still would first need a brake.
+    stays_ = at_target_ && from_s == 0;
+    if (stays_) return 0;
     const Real braking_s = brake_.total_s();
     const Real inner_from_s = positive_part(from_s - braking_s);
     const Real inner_s = first_feasible_after_brake(inner_from_s);
@@ -54,6 +60,10 @@ class Axis {
 
   // The motion for the duration that first_feasible() returned last.
   void motion(Mix<Real>& mix) const {
+    if (stays_) {
+      mix = {};
+      return;
+    }
     switch (kind_) {
       case Kind::kJerk:
         return jerk_.motion(mix);
@@ -68,7 +78,7 @@ class Axis {
     }
   }
 
-  const Brake<Real>& brake() const { return brake_; }
+  Brake<Real> brake() const { return stays_ ? Brake<Real>{} : brake_; }
   bool has_zero_limit() const { return kind_ == Kind::kConstant; }
   // Otherwise the signals are accelerations.
   bool signal_is_jerk() const { return kind_ == Kind::kJerk || kind_ == Kind::kVelocity; }
@@ -114,6 +124,8 @@ class Axis {
 
   Kind kind_ = Kind::kConstant;
   Brake<Real> brake_;
+  bool at_target_ = false;
+  bool stays_ = false;  // the answer was a duration of 0
   JerkAxis<Real> jerk_;
   UnlimitedJerkAxis<Real> unlimited_jerk_;
   VelocityAxis<Real> velocity_;

@@ -29,6 +29,7 @@ class Profile {
 
   struct Piece {
     Real begin_s;
+    Real duration_s;
     State<Real> state;  // at begin_s, position relative to the start of the profile
     Real jerk;
   };
@@ -40,6 +41,7 @@ class Profile {
     values_are_jerk_ = values_are_jerk;
     begin(start, end);
     for (int i = 0; i < brake.count; ++i) append(brake.duration_s[i], brake.value[i]);
+    brake_s_ = elapsed_s_;
     if (mix.lower.count() == 0 || mix.upper.count() == 0) {
       const Signal<Real>& only = mix.upper.count() > 0 ? mix.upper : mix.lower;
       for (int i = 0; i < only.count(); ++i) append(only.duration_s(i), scale * only.value(i));
@@ -59,6 +61,7 @@ class Profile {
   }
 
   Real duration_s() const { return duration_s_; }
+  Real brake_s() const { return brake_s_; }  // until then a start outside the limits is brought in
   int pieces() const { return count_; }
   const Piece& piece(int i) const { return pieces_[i]; }
   const State<Real>& end() const { return end_; }
@@ -79,29 +82,12 @@ class Profile {
     if (hint >= count_ || hint < 0 || pieces_[hint].begin_s > time_s) hint = 0;
     while (hint + 1 < count_ && pieces_[hint + 1].begin_s <= time_s) ++hint;
     const Piece& piece = pieces_[hint];
-    Sample<Real> sample{advanced(piece.state, piece.jerk, time_s - piece.begin_s), piece.jerk};
+    // begin_s is rounded to the size of the whole profile; the duration is not, and keeps the
+    // limits.
+    const Real t = minimum(time_s - piece.begin_s, piece.duration_s);
+    Sample<Real> sample{advanced(piece.state, piece.jerk, t), piece.jerk};
     sample.state.position += start_position_;
     return sample;
-  }
-
-  // Extremes of the velocity over the whole profile.
-  void velocity_range(Real& lowest, Real& highest) const {
-    lowest = highest = count_ > 0 ? pieces_[0].state.velocity : end_.velocity;
-    const auto widen = [&](Real v) {
-      lowest = minimum(lowest, v);
-      highest = maximum(highest, v);
-    };
-    for (int i = 0; i < count_; ++i) {
-      const Piece& piece = pieces_[i];
-      const Real end_s = i + 1 < count_ ? pieces_[i + 1].begin_s : duration_s_;
-      const State<Real> end = advanced(piece.state, piece.jerk, end_s - piece.begin_s);
-      widen(piece.state.velocity);
-      widen(end.velocity);
-      if (piece.state.acceleration * end.acceleration < 0) {
-        widen(piece.state.velocity -
-              piece.state.acceleration * piece.state.acceleration / (2 * piece.jerk));
-      }
-    }
   }
 
   static State<Real> advanced(const State<Real>& from, Real jerk, Real t) {
@@ -113,6 +99,7 @@ class Profile {
   void begin(const State<Real>& start, const State<Real>& end) {
     count_ = 0;
     elapsed_s_ = 0;
+    brake_s_ = 0;
     start_position_ = start.position;
     end_ = end;
     state_ = {0, start.velocity, start.acceleration};
@@ -122,6 +109,7 @@ class Profile {
     Piece& piece = pieces_[count_++];
     if (!values_are_jerk_) state_.acceleration = value;
     piece.begin_s = elapsed_s_;
+    piece.duration_s = duration_s;
     piece.state = state_;
     piece.jerk = values_are_jerk_ ? value : Real(0);
     state_ = advanced(state_, piece.jerk, duration_s);
@@ -161,6 +149,7 @@ class Profile {
   bool values_are_jerk_ = true;
   Real start_position_ = 0;
   Real duration_s_ = 0;
+  Real brake_s_ = 0;
   State<Real> end_;
   // While building.
   State<Real> state_;
