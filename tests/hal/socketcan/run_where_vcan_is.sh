@@ -9,8 +9,8 @@ shift 2
 "$with_vcan" --timeout "$seconds" --dir "$(dirname "$1")" -- "$@"
 status=$?
 if [ "$status" -eq 125 ]; then
-  echo "SKIPPED, NOT TESTED: $1: no CAN here. The kernel has no vcan and with-vcan could not start a" \
-       "guest that has one (its reason is above)."
+  echo "SKIPPED, NOT TESTED: $1: no CAN here. The kernel has no vcan and with-vcan could not" \
+       "start a guest that has one (its reason is above)."
   exit 77
 fi
 exit "$status"
