@@ -11,7 +11,7 @@ namespace hoof::sim {
 namespace {
 
 constexpr double kShareAimed = 0.60;   // solids of the paper's bed, from 42.5 kg in 120 mm
-constexpr double kShareOfRain = 0.26;  // random places are found quickly up to about 0.3
+constexpr double kShareOfRain = 0.30;  // random places are found quickly up to about 0.3
 
 double sphere_m3(double diameter_m) {
   return std::numbers::pi / 6 * diameter_m * diameter_m * diameter_m;
@@ -205,18 +205,18 @@ BedState make_bed(const BedSettings& bed, const Materials& materials, std::uint6
     falling.grain_wall.rolling_friction = 0;
     falling.viscous_rate_1_s = 5;
     SandBed sand(falling, state);
-    run(sand, 1.5 * fall_s, 0.0, 0.5, progress);
+    run(sand, 1.3 * fall_s, 0.0, 0.5, progress);
     sand.set_viscous_rate(30);
-    run(sand, 0.4 * fall_s, 0.5, 0.65, progress);
+    run(sand, 0.3 * fall_s, 0.5, 0.65, progress);
     state = sand.state();
   }
   scrape(state);
   {
     SandBed sand(settings, state);  // all friction from here on
     sand.set_viscous_rate(30);
-    run(sand, 0.35 * fall_s, 0.65, 0.8, progress);
+    run(sand, 0.3 * fall_s, 0.65, 0.8, progress);
     sand.set_viscous_rate(0);
-    run(sand, 0.35 * fall_s, 0.8, 1.0, progress);
+    run(sand, 0.3 * fall_s, 0.8, 1.0, progress);
     state = sand.state();
   }
   scrape(state);  // what the release pushed up again

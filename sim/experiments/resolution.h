@@ -1,0 +1,27 @@
+// What a bed can and cannot tell: lengths of foot and test over the grain size.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/multibody/foot_geometry.h"
+#include "sim/terrain/bed_settings.h"
+
+namespace hoof::sim {
+
+struct Resolution {
+  std::optional<double> spine_pitch_over_d50;
+  std::optional<double> sole_width_over_d50;
+  double sinkage_over_d50 = 0;
+  double box_length_over_foot = 0;
+  double box_width_over_foot = 0;
+  /// In words, each with the ratio and the bound that it misses.
+  std::vector<std::string> claims_refused;
+};
+
+/// @param footprint_x_m, footprint_y_m outer size of the foot on the ground, toes as opened
+Resolution assess_resolution(const BedSettings& bed, const FootGeometry& foot, double footprint_x_m,
+                             double footprint_y_m, double sinkage_m);
+
+}  // namespace hoof::sim
