@@ -8,7 +8,7 @@
 namespace hoof::sim {
 namespace {
 
-/// Work of a wrench held while its body moves: force times way of the origin, torque times turn.
+/// Work of a wrench while its body moves: force times way of the origin, torque times turn.
 double work_J(const Wrench& wrench, const BodyMotion& motion) {
   const Eigen::AngleAxisd turn(motion.end.q_WB * motion.start.q_WB.conjugate());
   return wrench.f_W_N.dot(motion.end.p_WB_m - motion.start.p_WB_m) +
@@ -75,9 +75,12 @@ void Plant::step_rig() {
   rig_->step(settings_.exchange_s);
   for (std::size_t body = 0; body < motions_.size(); ++body) {
     BodyMotion& motion = motions_[body];
-    motion.start = motion.end;
-    motion.end = rig_->pose(static_cast<int>(body));
-    exchange_energy_.work_on_rig_J += work_J(wrenches_[body], motion);
+    const BodyMotion before = motion;
+    motion = {before.end, rig_->pose(static_cast<int>(body))};
+    // A force held for a step changes the velocity from that of the way before to that of the way
+    // now; the energy it gives is force times the mean of both.
+    exchange_energy_.work_on_rig_J +=
+        0.5 * (work_J(wrenches_[body], before) + work_J(wrenches_[body], motion));
   }
 }
 
