@@ -80,8 +80,6 @@ class Axis {
 
   Brake<Real> brake() const { return stays_ ? Brake<Real>{} : brake_; }
   bool has_zero_limit() const { return kind_ == Kind::kConstant; }
-  // Otherwise the signals are accelerations.
-  bool signal_is_jerk() const { return kind_ == Kind::kJerk || kind_ == Kind::kVelocity; }
 
  private:
   enum class Kind : unsigned char {
@@ -111,10 +109,9 @@ class Axis {
   AxisProblem<Real> after_brake(AxisProblem<Real> axis) const {
     State<Real> state{0, axis.velocity, axis.acceleration};
     for (int i = 0; i < brake_.count; ++i) {
-      const bool jerk = signal_is_jerk();
-      if (!jerk) state.acceleration = brake_.value[i];
-      state =
-          Profile<Real>::advanced(state, jerk ? brake_.value[i] : Real(0), brake_.duration_s[i]);
+      const Phase<Real>& phase = brake_.phase[i];
+      state.acceleration = phase.acceleration;
+      state = Profile<Real>::advanced(state, phase.jerk, phase.duration_s);
     }
     axis.displacement -= state.position;
     axis.velocity = state.velocity;

@@ -8,17 +8,17 @@
 
 #include "firmware/trajectory/axis_problem.h"
 #include "firmware/trajectory/scalar.h"
+#include "firmware/trajectory/signal.h"
 
 namespace hoof::firmware::trajectory {
 
-// At most two phases of constant jerk (of constant acceleration where the jerk is unlimited).
+// At most two phases.
 template <typename Real>
 struct Brake {
   int count = 0;
-  Real duration_s[2] = {0, 0};
-  Real value[2] = {0, 0};
+  Phase<Real> phase[2] = {};
 
-  Real total_s() const { return duration_s[0] + duration_s[1]; }
+  Real total_s() const { return phase[0].duration_s + phase[1].duration_s; }
 };
 
 namespace internal {
@@ -58,7 +58,7 @@ class JerkBrake {
       const Real until_last_moment = (v_max_ - v_at_max) / a_max_ - a_max_ / (2 * jerk_);
       hold = positive_part(minimum(until_inside, until_last_moment));
     }
-    return phases(t_to_max, hold);
+    return phases(t_to_max, hold, a_max_);
   }
 
   Brake<Real> pull_velocity() const {
@@ -68,22 +68,22 @@ class JerkBrake {
     const Real back = root(a_ * a_ + 2 * jerk_ * (v_ - v_max_));
     const Real last_moment = root(a_ * a_ / 2 + jerk_ * (v_ - v_min_));
     const Real t = (a_ + minimum(back, last_moment)) / jerk_;
-    if (t <= t_to_min) return phases(t, 0);
+    if (t <= t_to_min) return phases(t, 0, 0);
     const Real v_at_min = v_ + t_to_min * (a_ + a_min_) / 2;
     const Real hold_back = (v_max_ - v_at_min) / a_min_;
     const Real hold_last_moment = (v_min_ - v_at_min) / a_min_ + a_min_ / (2 * jerk_);
-    return phases(positive_part(t_to_min), positive_part(minimum(hold_back, hold_last_moment)));
+    return phases(positive_part(t_to_min), positive_part(minimum(hold_back, hold_last_moment)),
+                  a_min_);
   }
 
-  Brake<Real> pull_acceleration_only() const { return phases((a_ - a_max_) / jerk_, 0); }
+  Brake<Real> pull_acceleration_only() const { return phases((a_ - a_max_) / jerk_, 0, 0); }
 
  private:
-  Brake<Real> phases(Real ramp_s, Real hold_s) const {
+  Brake<Real> phases(Real ramp_s, Real hold_s, Real held) const {
     Brake<Real> brake;
     brake.count = hold_s > 0 ? 2 : 1;
-    brake.duration_s[0] = positive_part(ramp_s);
-    brake.value[0] = -sign_ * jerk_;
-    brake.duration_s[1] = hold_s;
+    brake.phase[0] = {positive_part(ramp_s), sign_ * a_, -sign_ * jerk_};
+    brake.phase[1] = {hold_s, sign_ * held, 0};
     return brake;
   }
 
@@ -118,11 +118,11 @@ template <typename Real>
 Brake<Real> unlimited_jerk_brake(Real velocity, const AxisLimits<Real>& limits) {
   Brake<Real> brake;
   if (velocity > limits.max_velocity) {
-    brake.value[0] = limits.min_acceleration;
-    brake.duration_s[0] = (limits.max_velocity - velocity) / limits.min_acceleration;
+    brake.phase[0] = {(limits.max_velocity - velocity) / limits.min_acceleration,
+                      limits.min_acceleration, 0};
   } else if (velocity < limits.min_velocity) {
-    brake.value[0] = limits.max_acceleration;
-    brake.duration_s[0] = (limits.min_velocity - velocity) / limits.max_acceleration;
+    brake.phase[0] = {(limits.min_velocity - velocity) / limits.max_acceleration,
+                      limits.max_acceleration, 0};
   } else {
     return brake;
   }

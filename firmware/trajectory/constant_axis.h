@@ -50,7 +50,7 @@ class ConstantAxis {
     mix.upper.clear();
     mix.lower.clear();
     mix.weight = 1;
-    mix.upper.append(duration_s_, acceleration_);
+    mix.upper.append(duration_s_, acceleration_, 0);
   }
 
  private:

@@ -114,7 +114,7 @@ class ExtremalSide {
     shape.aq = minimum(shape.aq, maximum(af_, -low_));
     shape.c1 = c0_ + shape.ap * shape.ap + high_ * shape.hold_high;
     if (shape.ap > 0 && shape.aq < 0 && shape.c1 > w_max_) {
-      shape = at_peak_velocity(e_cruise_);
+      shape = at_cruise_velocity();
       shape.cruises = true;
       shape.cruise = positive_part(theta - duration(shape));
     }
@@ -202,16 +202,21 @@ class ExtremalSide {
   }
 
   // Profiles with a plateau (ap >= 0 >= aq), by the velocity c1 = c0 + e of their plateau.
-  Shape<Real> at_peak_velocity(Real e) const {
+  Shape<Real> at_peak_velocity(Real e) const { return plateau(e, e - k_, c0_ + e); }
+
+  // The one whose plateau is at v_max; of its own, for after a fast start c0 + e rounds badly.
+  Shape<Real> at_cruise_velocity() const { return plateau(e_cruise_, w_max_ - c2_, w_max_); }
+
+  // rise = c1 - c0, fall = c1 - c2
+  Shape<Real> plateau(Real rise, Real fall, Real c1) const {
     Shape<Real> shape;
-    shape.c1 = c0_ + e;
-    if (e > high_ * high_) {
+    shape.c1 = c1;
+    if (rise > high_ * high_) {
       shape.ap = high_;
-      shape.hold_high = (e - high_ * high_) / high_;
+      shape.hold_high = (rise - high_ * high_) / high_;
     } else {
-      shape.ap = maximum(root(e), a0_);
+      shape.ap = maximum(root(rise), a0_);
     }
-    const Real fall = e - k_;  // c1 - c2
     if (fall > low_ * low_) {
       shape.aq = -low_;
       shape.hold_low = (fall - low_ * low_) / low_;
@@ -339,7 +344,7 @@ class ExtremalSide {
   // With a plateau dq/dtheta = c1 - ap aq / 2 rises with the duration: the displacement is convex
   // and, being below `wanted` at the start, passes it once. The parts end where a limit is met.
   bool extend_plateau(Real wanted, Real e, Shape<Real>& shape) const {
-    Shape<Real> end = at_peak_velocity(maximum(e_cruise_, e));
+    Shape<Real> end = at_cruise_velocity();
     if (!(displacement(end) > wanted)) {
       shape = end;
       return extend_cruise(wanted, shape);

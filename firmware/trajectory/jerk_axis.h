@@ -108,17 +108,21 @@ class JerkAxis {
 
   void append(const ExtremalSide<Real>& side, const Shape<Real>& shape, Real jerk,
               Signal<Real>& signal) const {
-    signal.append((shape.ap - side.a0()) * inverse_jerk_, jerk);
-    signal.append(shape.hold_high * inverse_jerk_, 0);
+    const Real sign = jerk > 0 ? Real(1) : Real(-1);
+    const auto phase = [&](Real theta, Real acceleration, Real of_jerk) {
+      signal.append(theta * inverse_jerk_, sign * acceleration, of_jerk);
+    };
+    phase(shape.ap - side.a0(), side.a0(), jerk);
+    phase(shape.hold_high, shape.ap, 0);
     if (shape.cruises) {
-      signal.append(shape.ap * inverse_jerk_, -jerk);
-      signal.append(shape.cruise * inverse_jerk_, 0);
-      signal.append(-shape.aq * inverse_jerk_, -jerk);
+      phase(shape.ap, shape.ap, -jerk);
+      phase(shape.cruise, 0, 0);
+      phase(-shape.aq, 0, -jerk);
     } else {
-      signal.append((shape.ap - shape.aq) * inverse_jerk_, -jerk);
+      phase(shape.ap - shape.aq, shape.ap, -jerk);
     }
-    signal.append(shape.hold_low * inverse_jerk_, 0);
-    signal.append((side.af() - shape.aq) * inverse_jerk_, jerk);
+    phase(shape.hold_low, shape.aq, 0);
+    phase(side.af() - shape.aq, shape.aq, jerk);
   }
 
   Real jerk_ = 1, inverse_jerk_ = 1;

@@ -244,9 +244,10 @@ class Planner {
     const State<Real>& start = (*start_)[i];
     State<Real> end{input_->target_position[i], input_->target_velocity[i],
                     input_->target_acceleration[i]};
+    using End = typename Profile<Real>::End;
+    const bool position = input_->interface == Interface::kPosition;
     plan_->profile[i].build(start, end, axis.brake(), mix_, line ? scale_[i] : Real(1),
-                            axis.signal_is_jerk(), axis_duration_s_[i]);
-    if (input_->interface == Interface::kVelocity) plan_->profile[i].end_where_it_leads();
+                            axis_duration_s_[i], position ? End::kAtTarget : End::kWhereItLeads);
   }
 
   Result finish() {

@@ -34,25 +34,27 @@ class Profile {
     Real jerk;
   };
 
-  // From `start`: the brake, then `mix` times `scale`, then `end` for ever. `values_are_jerk` is
-  // false where the jerk is unlimited and the signals are accelerations.
+  // From `start`: the brake, then `mix` times `scale`; on to `end` (a target), or to wherever that
+  // leads with the velocity and acceleration of `end`.
+  enum class End { kAtTarget, kWhereItLeads };
   void build(const State<Real>& start, const State<Real>& end, const Brake<Real>& brake,
-             const Mix<Real>& mix, Real scale, bool values_are_jerk, Real duration_s) {
-    values_are_jerk_ = values_are_jerk;
+             const Mix<Real>& mix, Real scale, Real duration_s, End where) {
     begin(start, end);
-    for (int i = 0; i < brake.count; ++i) append(brake.duration_s[i], brake.value[i]);
+    for (int i = 0; i < brake.count; ++i) append(brake.phase[i], 1);
     brake_s_ = elapsed_s_;
     if (mix.lower.count() == 0 || mix.upper.count() == 0) {
       const Signal<Real>& only = mix.upper.count() > 0 ? mix.upper : mix.lower;
-      for (int i = 0; i < only.count(); ++i) append(only.duration_s(i), scale * only.value(i));
+      for (int i = 0; i < only.count(); ++i) append(only.phase(i), scale);
     } else {
       append_mixed(mix, scale);
     }
     duration_s_ = duration_s;
+    if (where == End::kAtTarget) {
+      anchor_end();
+    } else {
+      end_.position = start_position_ + state_.position;
+    }
   }
-
-  // With a velocity target the end position is where the motion leads.
-  void end_where_it_leads() { end_.position = start_position_ + state_.position; }
 
   // Standing still at a position.
   void rest(Real position) {
@@ -105,48 +107,75 @@ class Profile {
     state_ = {0, start.velocity, start.acceleration};
   }
 
-  void append(Real duration_s, Real value) {
+  void append(const Phase<Real>& phase, Real scale) {
+    state_.acceleration = scale * phase.acceleration;
     Piece& piece = pieces_[count_++];
-    if (!values_are_jerk_) state_.acceleration = value;
-    piece.begin_s = elapsed_s_;
-    piece.duration_s = duration_s;
-    piece.state = state_;
-    piece.jerk = values_are_jerk_ ? value : Real(0);
-    state_ = advanced(state_, piece.jerk, duration_s);
-    elapsed_s_ += duration_s;
+    piece = {elapsed_s_, phase.duration_s, state_, scale * phase.jerk};
+    state_ = advanced(state_, piece.jerk, phase.duration_s);
+    elapsed_s_ += phase.duration_s;
   }
 
+  // Where a walk through a signal stands: its phase, what is left of it, the acceleration there.
+  struct Cursor {
+    const Signal<Real>& signal;
+    int index = 0;
+    Phase<Real> rest = signal.phase(0);
+
+    bool last() const { return index + 1 == signal.count(); }
+    void spend(Real t) {
+      rest.duration_s -= t;
+      rest.acceleration += t * rest.jerk;
+    }
+    void next() { rest = signal.phase(++index); }
+  };
+
   void append_mixed(const Mix<Real>& mix, Real scale) {
-    const Real upper_weight = scale * mix.weight;
-    const Real lower_weight = scale - upper_weight;
-    int upper = 0;
-    int lower = 0;
-    Real upper_left = mix.upper.duration_s(0);
-    Real lower_left = mix.lower.duration_s(0);
+    Cursor upper{mix.upper};
+    Cursor lower{mix.lower};
+    const Real lower_weight = 1 - mix.weight;
     for (;;) {
-      const Real value =
-          upper_weight * mix.upper.value(upper) + lower_weight * mix.lower.value(lower);
-      const bool last_upper = upper + 1 == mix.upper.count();
-      const bool last_lower = lower + 1 == mix.lower.count();
-      if (last_upper && last_lower) {
-        append(maximum(upper_left, lower_left), value);
-        return;
-      }
+      const bool both_last = upper.last() && lower.last();
       // Rounding may make one signal end a hair before the other's last border.
-      const bool upper_ends = last_lower || (!last_upper && upper_left <= lower_left);
-      const bool lower_ends = last_upper || (!last_lower && lower_left <= upper_left);
-      const Real step = upper_ends ? upper_left : lower_left;
-      append(step, value);
-      upper_left -= step;
-      lower_left -= step;
-      if (upper_ends) upper_left = mix.upper.duration_s(++upper);
-      if (lower_ends) lower_left = mix.lower.duration_s(++lower);
+      const bool upper_ends =
+          !upper.last() && (lower.last() || upper.rest.duration_s <= lower.rest.duration_s);
+      const bool lower_ends =
+          !lower.last() && (upper.last() || lower.rest.duration_s <= upper.rest.duration_s);
+      const Real step = both_last    ? maximum(upper.rest.duration_s, lower.rest.duration_s)
+                        : upper_ends ? upper.rest.duration_s
+                                     : lower.rest.duration_s;
+      append({positive_part(step),
+              mix.weight * upper.rest.acceleration + lower_weight * lower.rest.acceleration,
+              mix.weight * upper.rest.jerk + lower_weight * lower.rest.jerk},
+             scale);
+      if (both_last) return;
+      upper.spend(step);
+      lower.spend(step);
+      if (upper_ends) upper.next();
+      if (lower_ends) lower.next();
+    }
+  }
+
+  // The states of the last pieces are counted back from the target, so that rounding grows from
+  // both ends to the middle: a slow end after a fast start is as precise as the slow end allows.
+  void anchor_end() {
+    Real sums[kMaxPieces];  // of the speeds up to a piece: what its rounding is proportional to
+    Real sum = 0;
+    for (int i = 0; i < count_; ++i) sums[i] = sum += magnitude(pieces_[i].state.velocity);
+    State<Real> state{end_.position - start_position_, end_.velocity, end_.acceleration};
+    sum = magnitude(state.velocity);
+    for (int i = count_ - 1; i > 0 && sum < sums[i]; --i) {
+      Piece& piece = pieces_[i];
+      const Real t = piece.duration_s;
+      state.acceleration = piece.state.acceleration;
+      state.velocity -= t * (state.acceleration + t * piece.jerk / 2);
+      state.position -= t * (state.velocity + t * (state.acceleration / 2 + t * piece.jerk / 6));
+      piece.state = state;
+      sum += magnitude(state.velocity);
     }
   }
 
   std::array<Piece, kMaxPieces> pieces_;
   int count_ = 0;
-  bool values_are_jerk_ = true;
   Real start_position_ = 0;
   Real duration_s_ = 0;
   Real brake_s_ = 0;

@@ -1,4 +1,4 @@
-// A piecewise constant command: jerk, or acceleration where the jerk is unlimited.
+// A motion as a sequence of phases of constant jerk.
 #pragma once
 
 #include <array>
@@ -6,6 +6,15 @@
 #include "firmware/trajectory/scalar.h"
 
 namespace hoof::firmware::trajectory {
+
+// The acceleration at the start is stored, not summed up: held accelerations and cruises are exact,
+// and it may jump between phases where the jerk is unlimited.
+template <typename Real>
+struct Phase {
+  Real duration_s;
+  Real acceleration;
+  Real jerk;
+};
 
 // An extremal profile has at most seven phases; those of no length are left out.
 template <typename Real>
@@ -15,20 +24,17 @@ class Signal {
 
   void clear() { count_ = 0; }
 
-  void append(Real duration_s, Real value) {
+  void append(Real duration_s, Real acceleration, Real jerk) {
     if (!(duration_s > 0)) return;
-    duration_s_[count_] = duration_s;
-    value_[count_] = value;
+    phases_[count_] = {duration_s, acceleration, jerk};
     ++count_;
   }
 
   int count() const { return count_; }
-  Real duration_s(int phase) const { return duration_s_[phase]; }
-  Real value(int phase) const { return value_[phase]; }
+  const Phase<Real>& phase(int i) const { return phases_[i]; }
 
  private:
-  std::array<Real, kMaxPhases> duration_s_;
-  std::array<Real, kMaxPhases> value_;
+  std::array<Phase<Real>, kMaxPhases> phases_;
   int count_ = 0;
 };
 

@@ -18,8 +18,7 @@ void build_stop(const State<Real>& state, const AxisLimits<Real>& limits, Profil
   }
   Mix<Real> mix;
   axis.motion(mix);
-  profile.build(state, {}, axis.brake(), mix, 1, axis.signal_is_jerk(), duration_s);
-  profile.end_where_it_leads();
+  profile.build(state, {}, axis.brake(), mix, 1, duration_s, Profile<Real>::End::kWhereItLeads);
 }
 
 }  // namespace hoof::firmware::trajectory

@@ -115,9 +115,9 @@ class UnlimitedJerkAxis {
 
   static void append(const Side& side, const typename Side::Shape& shape, Real sign,
                      Signal<Real>& signal) {
-    signal.append(side.rise_s(shape), sign * side.high);
-    signal.append(shape.cruise_s, 0);
-    signal.append(side.fall_s(shape), -sign * side.low);
+    signal.append(side.rise_s(shape), sign * side.high, 0);
+    signal.append(shape.cruise_s, 0, 0);
+    signal.append(side.fall_s(shape), -sign * side.low, 0);
   }
 
   Real wanted_ = 0, begin_s_ = 0;

@@ -55,9 +55,10 @@ class VelocityAxis {
 
  private:
   void append(Real peak, Real hold, Real a0, Real af, Real jerk, Signal<Real>& signal) const {
-    signal.append((peak - a0) / jerk_, jerk);
-    signal.append(hold / jerk_, 0);
-    signal.append((peak - af) / jerk_, -jerk);
+    const Real sign = jerk > 0 ? Real(1) : Real(-1);
+    signal.append((peak - a0) / jerk_, sign * a0, jerk);
+    signal.append(hold / jerk_, sign * peak, 0);
+    signal.append((peak - af) / jerk_, sign * peak, -jerk);
   }
 
   // Largest gain in theta_ as seen by an axis with peak `limit`; appends its signal.
@@ -93,7 +94,7 @@ class UnlimitedJerkVelocityAxis {
     mix.upper.clear();
     mix.lower.clear();
     mix.weight = 1;
-    mix.upper.append(duration_s_, change_ / duration_s_);
+    mix.upper.append(duration_s_, change_ / duration_s_, 0);
   }
 
  private:

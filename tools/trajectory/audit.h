@@ -1,5 +1,5 @@
-// Checks a built profile by integrating its pieces in extended precision: where it ends, and how
-// far it leaves its limits. Shares no formula with the solver.
+// Checks a built profile by integrating its pieces in extended precision: where they lead, and how
+// far they leave the limits. Shares no formula with the solver.
 #pragma once
 
 #include <algorithm>
@@ -12,89 +12,93 @@
 namespace hoof::tools::trajectory {
 
 struct Audit {
-  // At the end, against the target; relative to the largest magnitude on the way where that is > 1.
-  double position_error = 0;
-  double velocity_error = 0;
-  double acceleration_error = 0;
-  // Beyond velocity, acceleration or jerk limits, relative where the limit is > 1. The acceleration
-  // counts from the end of the brake on, the velocity from when it is inside after the brake.
+  // Largest miss of a piece against the state the next one starts from, and of the last piece
+  // against the target; in position, velocity or acceleration, relative to the largest magnitude on
+  // the way where that is above 1. Nothing else can be wrong with the end state.
+  double end_error = 0;
+  // Beyond velocity, acceleration or jerk limits, relative where the limit is above 1. The
+  // acceleration counts from the end of the brake on, the velocity from when it is inside after it.
   double overshoot = 0;
-  // Jump of the stored state from one piece to the next (the acceleration jumps by design where the
-  // jerk is unlimited).
-  double discontinuity = 0;
-
-  double end_error() const {
-    return std::max({position_error, velocity_error, acceleration_error});
-  }
 
   void merge(const Audit& other) {
-    position_error = std::max(position_error, other.position_error);
-    velocity_error = std::max(velocity_error, other.velocity_error);
-    acceleration_error = std::max(acceleration_error, other.acceleration_error);
+    end_error = std::max(end_error, other.end_error);
     overshoot = std::max(overshoot, other.overshoot);
-    discontinuity = std::max(discontinuity, other.discontinuity);
   }
 };
 
 template <typename Real>
 class Auditor {
  public:
-  Auditor(const firmware::trajectory::AxisLimits<Real>& limits,
-          firmware::trajectory::Interface interface)
-      : limits_(limits),
-        velocity_limited_(interface == firmware::trajectory::Interface::kPosition) {}
+  using Limits = firmware::trajectory::AxisLimits<Real>;
+  using Profile = firmware::trajectory::Profile<Real>;
+  using Interface = firmware::trajectory::Interface;
 
-  // From the profile's own start state to `end`, given relative to the start position.
-  Audit run(const firmware::trajectory::Profile<Real>& profile, double displacement,
-            double end_velocity, double end_acceleration) {
+  Auditor(const Limits& limits, Interface interface)
+      : limits_(limits),
+        velocity_limited_(interface == Interface::kPosition),
+        jerk_limited_(std::isfinite(static_cast<double>(limits.max_jerk))) {}
+
+  // `displacement` and the end values: what the profile is to reach, relative to its start.
+  Audit run(const Profile& profile, double displacement, double end_velocity,
+            double end_acceleration) {
     audit_ = {};
-    const bool jerk_limited = std::isfinite(static_cast<double>(limits_.max_jerk));
-    long double p = 0, v = 0, a = 0;
-    long double reach = 1, speed = 1, push = 1;
+    armed_ = false;
+    find_scales(profile, displacement);
     for (int i = 0; i < profile.pieces(); ++i) {
       const auto& piece = profile.piece(i);
-      if (i == 0) {
-        v = piece.state.velocity;
-        a = piece.state.acceleration;
+      const Motion end = follow(piece, piece.begin_s >= profile.brake_s(), profile.brake_s() == 0);
+      if (i + 1 < profile.pieces()) {
+        const auto& next = profile.piece(i + 1).state;
+        compare(end, next.position, next.velocity, next.acceleration);
+      } else {
+        compare(end, displacement, end_velocity, end_acceleration);
       }
-      if (!jerk_limited) a = piece.state.acceleration;
-      jump(piece.state.position - p, reach);
-      jump(piece.state.velocity - v, speed);
-      jump(piece.state.acceleration - a, push);
-      const long double t = piece.duration_s;
-      const long double j = piece.jerk;
-      const bool inside = piece.begin_s >= profile.brake_s();
-      velocity_armed_ = inside && (velocity_armed_ || profile.brake_s() == 0 || velocity_inside(v));
-      if (inside) check_state(v, a);
-      if (inside && j != 0) {
-        const long double t_flat = -a / j;
-        if (t_flat > 0 && t_flat < t) check_state(v + t_flat * (a + t_flat * j / 2), 0);
-      }
-      if (jerk_limited) beyond(std::fabs(j), limits_.max_jerk);
-      p += t * (v + t * (a / 2 + t * j / 6));
-      v += t * (a + t * j / 2);
-      a += t * j;
-      if (inside) check_state(v, a);
-      reach = std::max(reach, std::fabs(p));
-      speed = std::max(speed, std::fabs(v));
-      push = std::max(push, std::fabs(a));
-    }
-    if (profile.pieces() == 0) {
-      v = end_velocity;
-      a = end_acceleration;
-    }
-    audit_.position_error = static_cast<double>(std::fabs(p - displacement) / reach);
-    audit_.velocity_error = static_cast<double>(std::fabs(v - end_velocity) / speed);
-    if (jerk_limited) {
-      audit_.acceleration_error = static_cast<double>(std::fabs(a - end_acceleration) / push);
     }
     return audit_;
   }
 
  private:
-  void jump(long double difference, long double scale) {
-    audit_.discontinuity =
-        std::max(audit_.discontinuity, static_cast<double>(std::fabs(difference) / scale));
+  struct Motion {
+    long double p, v, a;
+  };
+
+  void find_scales(const Profile& profile, double displacement) {
+    // The target counts too: a cruise's last state lies at its start.
+    reach_ = std::max<long double>(1, std::fabs(displacement));
+    speed_ = push_ = 1;
+    for (int i = 0; i < profile.pieces(); ++i) {
+      const auto& state = profile.piece(i).state;
+      reach_ = std::max<long double>(reach_, std::fabs(state.position));
+      speed_ = std::max<long double>(speed_, std::fabs(state.velocity));
+      push_ = std::max<long double>(push_, std::fabs(state.acceleration));
+    }
+  }
+
+  // To the end of the piece, checking its limits on the way.
+  Motion follow(const typename Profile::Piece& piece, bool after_brake, bool without_brake) {
+    const long double t = piece.duration_s;
+    const long double j = piece.jerk;
+    const Motion from{piece.state.position, piece.state.velocity, piece.state.acceleration};
+    const Motion to{from.p + t * (from.v + t * (from.a / 2 + t * j / 6)),
+                    from.v + t * (from.a + t * j / 2), from.a + t * j};
+    if (jerk_limited_) beyond(std::fabs(j), limits_.max_jerk);
+    if (!after_brake) return to;
+    armed_ = armed_ || without_brake || velocity_inside(from.v);
+    check_state(from.v, from.a);
+    const long double t_flat = j != 0 ? -from.a / j : 0;
+    if (t_flat > 0 && t_flat < t) check_state(from.v + t_flat * from.a / 2, 0);
+    check_state(to.v, to.a);
+    return to;
+  }
+
+  void compare(const Motion& end, long double p, long double v, long double a) {
+    const auto miss = [&](long double difference, long double scale) {
+      audit_.end_error =
+          std::max(audit_.end_error, static_cast<double>(std::fabs(difference) / scale));
+    };
+    miss(end.p - p, reach_);
+    miss(end.v - v, speed_);
+    if (jerk_limited_) miss(end.a - a, push_);  // otherwise it jumps by design
   }
 
   void beyond(long double value, long double bound) {
@@ -107,7 +111,7 @@ class Auditor {
   }
 
   void check_state(long double v, long double a) {
-    if (velocity_limited_ && velocity_armed_) {
+    if (velocity_limited_ && armed_) {
       beyond(v, limits_.max_velocity);
       beyond(-v, -static_cast<long double>(limits_.min_velocity));
     }
@@ -115,9 +119,11 @@ class Auditor {
     beyond(-a, -static_cast<long double>(limits_.min_acceleration));
   }
 
-  firmware::trajectory::AxisLimits<Real> limits_;
+  Limits limits_;
   bool velocity_limited_;
-  bool velocity_armed_ = false;
+  bool jerk_limited_;
+  bool armed_ = false;
+  long double reach_ = 1, speed_ = 1, push_ = 1;
   Audit audit_;
 };
 

@@ -141,7 +141,7 @@ class Checker {
   }
 
   void compare(const Case& c, const InputOf<Real>& input, const Solution& solution) {
-    tally_.worst_end_error = solution.audit.end_error();
+    tally_.worst_end_error = solution.audit.end_error;
     tally_.worst_overshoot = solution.audit.overshoot;
     if (!(solution.audit.overshoot <= bars_.overshoot)) fail(c, "a limit is exceeded");
     const double expected = expected_duration(c);
