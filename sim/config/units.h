@@ -41,6 +41,7 @@ inline constexpr Unit kPascal{"Pa"};
 inline constexpr Unit kMegapascal{"MPa", 1e6};
 inline constexpr Unit kGigapascal{"GPa", 1e9};
 inline constexpr Unit kMetrePerSecond{"m_s"};
+inline constexpr Unit kMillimetrePerSecond{"mm_s", 1.0, 1e3};
 inline constexpr Unit kMetrePerSecondSquared{"m_s2"};
 inline constexpr Unit kRadianPerSecond{"rad_s"};
 inline constexpr Unit kRevolutionPerMinute{"rpm", 2.0 * std::numbers::pi, 60.0};

@@ -20,13 +20,6 @@ Eigen::Vector3d vector(const dReal* v) {
   return {v[0], v[1], v[2]};
 }
 
-void set_pose(dBodyID body, const Pose& pose, const Eigen::Vector3d& com_B_m) {
-  const Eigen::Vector3d com = pose.p_WB_m + pose.q_WB * com_B_m;
-  const dQuaternion q = {pose.q_WB.w(), pose.q_WB.x(), pose.q_WB.y(), pose.q_WB.z()};
-  dBodySetPosition(body, com.x(), com.y(), com.z());
-  dBodySetQuaternion(body, q);
-}
-
 }  // namespace
 
 OdeWorld::OdeWorld(const Eigen::Vector3d& gravity_m_s2) {
@@ -55,11 +48,10 @@ OdeBody::OdeBody(OdeWorld& world, const MassProperties& mass, const Pose& pose)
   dMassSetParameters(&ode_mass, mass.mass_kg, 0, 0, 0, i(0, 0), i(1, 1), i(2, 2), i(0, 1), i(0, 2),
                      i(1, 2));
   dBodySetMass(body_, &ode_mass);
-  place(pose);
-}
-
-void OdeBody::place(const Pose& pose) {
-  set_pose(body_, pose, mass_.com_B_m);
+  const Eigen::Vector3d com = pose.p_WB_m + pose.q_WB * mass.com_B_m;
+  dBodySetPosition(body_, com.x(), com.y(), com.z());
+  const dQuaternion q = {pose.q_WB.w(), pose.q_WB.x(), pose.q_WB.y(), pose.q_WB.z()};
+  dBodySetQuaternion(body_, q);
 }
 
 Pose OdeBody::pose() const {
@@ -152,8 +144,6 @@ OdeSlider::OdeSlider(OdeWorld& world, OdeBody& moving, const Eigen::Vector3d& ax
 }
 
 void OdeSlider::drive(double speed_m_s) {
-  // ODE's motor velocity of a slider is that of the world relative to the body, opposite to the
-  // slider position it reports.
   dJointSetSliderParam(joint_, dParamVel, speed_m_s);
   dJointSetSliderParam(joint_, dParamFMax, dInfinity);
 }

@@ -51,7 +51,6 @@ class OdeBody {
   void make_kinematic();
   /// Gives the velocity that reaches the pose after interval_s.
   void move_kinematic(const Pose& target, double interval_s);
-  void place(const Pose& pose);
 
   dxBody* handle() { return body_; }
 

@@ -26,8 +26,6 @@ void PrescribedRig::move_to(FootPoint target) {
 void PrescribedRig::step(double interval_s) {
   middle().move_kinematic(target_, interval_s);
   FootRig::step(interval_s);
-  // The engine turns by w h to first order; the path is exact.
-  middle().place(target_);
 }
 
 RigEnergy PrescribedRig::energy() const {

@@ -167,6 +167,17 @@ TEST_CASE("halving the exchange interval changes the deepest point by less than 
   CHECK(deepest_m(50e-6) == Approx(deepest_m(25e-6)).epsilon(0.01));
 }
 
+TEST_CASE("a foot beyond the speed limit is stopped by name") {
+  Case c;
+  c.coupling.speed_limit_m_s = 0.05;
+  SinkageCase s(c);
+  s.plant->advance();
+  s.rig->lower(0.1);
+  CHECK_THROWS_WITH(s.plant->advance(),
+                    Catch::Contains("the foot moves at 0.1 m/s, above coupling.speed_limit_m_s = "
+                                    "0.05"));
+}
+
 TEST_CASE("the ground sleeps until the foot is near for the first time") {
   Case c;
   c.height_m = 0.008;
@@ -177,6 +188,38 @@ TEST_CASE("the ground sleeps until the foot is near for the first time") {
   while (s.plant->terrain_asleep()) s.plant->advance();
   CHECK(s.rig->foot_position_m().z() == Approx(c.coupling.sleep_margin_m).margin(2 * 5e-6));
   CHECK_FALSE(s.plant->touched());
+  // Awake, it stays so, however far the foot goes.
+  s.rig->lower(-0.1);
+  s.run(0.1);
+  CHECK_FALSE(s.plant->terrain_asleep());
+}
+
+TEST_CASE("a sleeping ground is not stepped, and wakes with the way of one interval") {
+  struct CountingGround final : Terrain {
+    int add_body(const TriangleMesh&, const Pose&) override { return 0; }
+    void advance(double, std::span<const BodyMotion> motions, std::span<Wrench>) override {
+      ++steps;
+      way_m = motions[0].start.p_WB_m.z() - motions[0].end.p_WB_m.z();
+    }
+    double surface_height_m() const override { return 0.0; }
+    double work_on_bodies_J() const override { return 0.0; }
+    int steps = 0;
+    double way_m = 0.0;
+  };
+  SinkageRigSettings settings;
+  settings.foot = shipped_foot("traditional");
+  settings.load_N = 100.0;
+  settings.start_height_m = 0.006;
+  auto rig = std::make_unique<SinkageRig>(settings);
+  rig->lower(0.1);
+  auto ground = std::make_unique<CountingGround>();
+  const CountingGround& counter = *ground;
+  Plant plant(std::move(rig), {}, std::move(ground), shipped_coupling());
+  for (int i = 0; i < 150; ++i) plant.advance();  // 0.75 mm down, 5.25 mm above the ground
+  CHECK(counter.steps == 0);
+  for (int i = 0; i < 100; ++i) plant.advance();
+  CHECK(counter.steps == Approx(50).margin(1));
+  CHECK(counter.way_m == Approx(5e-6).epsilon(1e-6));
 }
 
 TEST_CASE("a diverging exchange is stopped with the cause and the setting to change") {

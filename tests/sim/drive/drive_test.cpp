@@ -263,6 +263,9 @@ TEST_CASE("torque ends 20 ms after the last command, to the step") {
   drive.disable();
   drive.step(kStep_s, 0.0, 0.0);
   CHECK(drive.motor_torque_Nm() == 0.0);
+  drive.enable();  // an old command does not come back to life
+  drive.step(kStep_s, 0.0, 0.0);
+  CHECK(drive.motor_torque_Nm() == 0.0);
 }
 
 TEST_CASE("the winding warms up by copper loss and stops the drive at its limit") {

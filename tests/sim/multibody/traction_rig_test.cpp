@@ -52,6 +52,24 @@ TEST_CASE("the leg starts where it is told and reports the angles of the closed 
   CHECK(rig.joints().size() == 3);
 }
 
+TEST_CASE("the potential of gravity is that of each part where it hangs") {
+  const auto [x, z] = GENERATE(table<double, double>({{-0.1, 0.005}, {0.1, 0.02}, {0.0, -0.035}}));
+  const TractionRigSettings settings = settings_for("traditional", x, z);
+  const Leg& leg = settings.leg;
+  const LegAngles angles = inverse_kinematics(leg, x, z);
+  const double knee_z = leg.hip_height_m - leg.thigh.length_m * std::cos(angles.hip_rad);
+  const double thigh_z = leg.hip_height_m - leg.thigh.com_from_joint_m * std::cos(angles.hip_rad);
+  const double shank_z =
+      knee_z - leg.shank.com_from_joint_m * std::cos(angles.hip_rad + angles.knee_rad);
+  const double pitch = forward_kinematics(leg, angles).pitch_rad;
+  // The block's centre of mass is on its middle line (x = 0).
+  const double foot_z = z + solid(settings.foot.middle, 1.0).com_B_m.z() * std::cos(pitch);
+  const double expected =
+      kGravity_m_s2 *
+      (leg.thigh.mass_kg * thigh_z + leg.shank.mass_kg * shank_z + settings.foot.mass_kg * foot_z);
+  CHECK(TractionRig(settings).energy().gravity_J == Approx(expected).epsilon(1e-12));
+}
+
 TEST_CASE("hip and knee turn forward under positive torque") {
   const Joint joint = GENERATE(Joint::kHip, Joint::kKnee);
   TractionRig rig(settings_for("traditional", 0.0, -0.035));
