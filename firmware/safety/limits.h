@@ -32,7 +32,7 @@ struct JointLimits {
 /// Hip and knee. Torque: 1.5 times the 235 Nm of the paper's fastest stance, so that no traction
 /// test is clipped. Rate: ceiling in 3.5 ms; a foot fall that changes joint speed by 0.5 rad/s in a
 /// tick moves the damping term by 75 Nm. Distance: 0.1 rad are 5 cm at the foot. Travel: the
-/// elliptical path needs hip 0.26 to 1.02 and knee -1.55 to -1.06 rad; beyond that what a leg that
+/// elliptical path needs hip 0.35 to 0.82 and knee -1.42 to -0.94 rad; beyond that what a leg that
 /// hangs straight (knee 0) or is folded needs. Speed: 2.7 times the 1.82 rad/s of the fastest path.
 inline constexpr control::PerJoint<JointLimits> kLimits{{
     {10.0f, 3000.0f, 24.0f, 0.125f, -0.1f, 1.0f, 10.0f, 500.0f, 5.0f, 45.0f, 12.49f, 2.4f},
