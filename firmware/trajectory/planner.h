@@ -119,11 +119,13 @@ class Planner {
   Real next_step(Real t) const {
     const Real step = input_->duration_step_s;
     if (!(step > 0)) return t;
-    // 32 bits: 49 days of milliseconds, and no 64-bit (software) conversion on the target.
-    const Real ratio = t / step * (1 - kRounding<Real>);
-    if (!(ratio < Real(2147483000))) return t;
-    const Real whole = static_cast<Real>(static_cast<std::int32_t>(ratio));
-    return (whole < ratio ? whole + 1 : whole) * step;
+    const Real ratio = t / step;
+    // Beyond this, and beyond 32 bits (a 64-bit conversion is software on the target), a step is
+    // lost in the rounding of the duration.
+    if (!(ratio < minimum(Real(2147483000), 1 / (8 * kEpsilon<Real>)))) return t;
+    const Real below = ratio - minimum(kRounding<Real> * ratio, Real(0.25));
+    const Real whole = static_cast<Real>(static_cast<std::int32_t>(below));
+    return (whole < below ? whole + 1 : whole) * step;
   }
 
   Result failure(int joint) const {

@@ -46,7 +46,7 @@ class Profile {
       const Signal<Real>& only = mix.upper.count() > 0 ? mix.upper : mix.lower;
       for (int i = 0; i < only.count(); ++i) append(only.phase(i), scale);
     } else {
-      append_mixed(mix, scale);
+      append_mixed(mix, scale, duration_s - brake_s_);
     }
     duration_s_ = duration_s;
     if (where == End::kAtTarget) {
@@ -129,10 +129,69 @@ class Profile {
     void next() { rest = signal.phase(++index); }
   };
 
-  void append_mixed(const Mix<Real>& mix, Real scale) {
-    Cursor upper{mix.upper};
-    Cursor lower{mix.lower};
-    const Real lower_weight = 1 - mix.weight;
+  // Both signals merged, border by border. When both spend their longest phase in the middle, the
+  // borders after it are counted back from the end: a difference of two times late in a long motion
+  // would have lost the short phases there to rounding.
+  void append_mixed(const Mix<Real>& mix, Real scale, Real duration_s) {
+    const Split upper(mix.upper);
+    const Split lower(mix.lower);
+    const Real head_s = maximum(upper.head_s, lower.head_s);
+    const Real tail_s = maximum(upper.tail_s, lower.tail_s);
+    const Real middle_s = duration_s - head_s - tail_s;
+    if (!upper.steady() || !lower.steady() || !(middle_s > head_s + tail_s)) {
+      merge(mix.upper, mix.lower, mix.weight, scale);
+      return;
+    }
+    merge(upper.head(head_s), lower.head(head_s), mix.weight, scale);
+    append(mixed(upper.longest(), lower.longest(), mix.weight, middle_s), scale);
+    merge(upper.tail(tail_s), lower.tail(tail_s), mix.weight, scale);
+  }
+
+  // A signal cut at its longest phase.
+  struct Split {
+    explicit Split(const Signal<Real>& whole) : signal(whole) {
+      for (int i = 1; i < signal.count(); ++i) {
+        if (signal.phase(i).duration_s > longest().duration_s) middle = i;
+      }
+      for (int i = 0; i < middle; ++i) head_s += signal.phase(i).duration_s;
+      for (int i = middle + 1; i < signal.count(); ++i) tail_s += signal.phase(i).duration_s;
+    }
+
+    const Phase<Real>& longest() const { return signal.phase(middle); }
+    bool steady() const { return longest().jerk == 0; }
+
+    // The beginning, and the end, filled up to a length with the longest phase.
+    Signal<Real> head(Real length_s) const {
+      Signal<Real> part;
+      for (int i = 0; i < middle; ++i) part.append(signal.phase(i));
+      part.append({length_s - head_s, longest().acceleration, 0});
+      return part;
+    }
+    Signal<Real> tail(Real length_s) const {
+      Signal<Real> part;
+      part.append({length_s - tail_s, longest().acceleration, 0});
+      for (int i = middle + 1; i < signal.count(); ++i) part.append(signal.phase(i));
+      return part;
+    }
+
+    const Signal<Real>& signal;
+    int middle = 0;
+    Real head_s = 0;
+    Real tail_s = 0;
+  };
+
+  static Phase<Real> mixed(const Phase<Real>& upper, const Phase<Real>& lower, Real weight,
+                           Real duration_s) {
+    const Real rest = 1 - weight;
+    return {duration_s, weight * upper.acceleration + rest * lower.acceleration,
+            weight * upper.jerk + rest * lower.jerk};
+  }
+
+  void merge(const Signal<Real>& upper_signal, const Signal<Real>& lower_signal, Real weight,
+             Real scale) {
+    if (upper_signal.count() == 0 || lower_signal.count() == 0) return;
+    Cursor upper{upper_signal};
+    Cursor lower{lower_signal};
     for (;;) {
       const bool both_last = upper.last() && lower.last();
       // Rounding may make one signal end a hair before the other's last border.
@@ -143,10 +202,7 @@ class Profile {
       const Real step = both_last    ? maximum(upper.rest.duration_s, lower.rest.duration_s)
                         : upper_ends ? upper.rest.duration_s
                                      : lower.rest.duration_s;
-      append({positive_part(step),
-              mix.weight * upper.rest.acceleration + lower_weight * lower.rest.acceleration,
-              mix.weight * upper.rest.jerk + lower_weight * lower.rest.jerk},
-             scale);
+      append(mixed(upper.rest, lower.rest, weight, positive_part(step)), scale);
       if (both_last) return;
       upper.spend(step);
       lower.spend(step);

@@ -25,9 +25,11 @@ class Signal {
   void clear() { count_ = 0; }
 
   void append(Real duration_s, Real acceleration, Real jerk) {
-    if (!(duration_s > 0)) return;
-    phases_[count_] = {duration_s, acceleration, jerk};
-    ++count_;
+    append({duration_s, acceleration, jerk});
+  }
+
+  void append(const Phase<Real>& phase) {
+    if (phase.duration_s > 0) phases_[count_++] = phase;
   }
 
   int count() const { return count_; }

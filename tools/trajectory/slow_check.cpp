@@ -1,0 +1,149 @@
+#include "tools/trajectory/slow_check.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace hoof::tools::trajectory {
+namespace {
+
+using Wide = long double;
+
+struct Line {
+  Wide offset;
+  Wide slope;
+  Wide at(Wide t) const { return offset + slope * t; }
+};
+
+struct Travel {
+  Wide velocity_gain = 0;
+  Wide displacement = 0;
+  Wide highest_velocity = 0;
+};
+
+class SlowAxis {
+ public:
+  explicit SlowAxis(const AxisProblem& axis, bool mirrored)
+      : sign_(mirrored ? -1 : 1),
+        v0_(sign_ * axis.velocity),
+        a0_(sign_ * axis.acceleration),
+        vf_(sign_ * axis.target_velocity),
+        af_(sign_ * axis.target_acceleration),
+        v_max_(mirrored ? -axis.limits.min_velocity : axis.limits.max_velocity),
+        a_max_(mirrored ? -axis.limits.min_acceleration : axis.limits.max_acceleration),
+        a_min_(mirrored ? -axis.limits.max_acceleration : axis.limits.min_acceleration),
+        jerk_(axis.limits.max_jerk) {}
+
+  // With r beyond every envelope the motion is the envelope itself.
+  Wide largest_gain(Wide t) const { return travel(t, far(t), v0_, a0_, af_).velocity_gain; }
+  Wide smallest_gain(Wide t) const { return travel(t, -far(t), v0_, a0_, af_).velocity_gain; }
+
+  Wide largest_displacement(Wide t) const {
+    Wide below = -far(t);
+    Wide above = far(t);
+    for (int i = 0; i < 100; ++i) {
+      const Wide r = (below + above) / 2;
+      (travel(t, r, v0_, a0_, af_).velocity_gain < vf_ - v0_ ? below : above) = r;
+    }
+    const Travel free = travel(t, (below + above) / 2, v0_, a0_, af_);
+    const Wide highest_end = std::max(v0_, vf_);
+    if (free.highest_velocity <= std::max(v_max_, highest_end)) return free.displacement;
+    const Part up = fastest_to_cruise(v0_, a0_, false);
+    const Part down = fastest_to_cruise(vf_, -af_, true);
+    return up.displacement + down.displacement + v_max_ * (t - up.duration - down.duration);
+  }
+
+ private:
+  struct Part {
+    Wide duration;
+    Wide displacement;
+  };
+
+  Wide far(Wide t) const { return 2 * (a_max_ - a_min_ + jerk_ * t) + std::fabs(a0_); }
+
+  // Shortest way from (v, a) to (v_max, 0). Backwards in time the acceleration limits swap.
+  Part fastest_to_cruise(Wide v, Wide a, bool backwards) const {
+    SlowAxis axis = *this;
+    if (backwards) {
+      axis.a_max_ = -a_min_;
+      axis.a_min_ = -a_max_;
+    }
+    Wide below = std::fabs(a) / jerk_;
+    Wide above = below + 1;
+    const auto gain = [&](Wide t) { return axis.travel(t, axis.far(t), v, a, 0); };
+    while (gain(above).velocity_gain < v_max_ - v) above *= 2;
+    for (int i = 0; i < 100; ++i) {
+      const Wide t = (below + above) / 2;
+      (gain(t).velocity_gain < v_max_ - v ? below : above) = t;
+    }
+    return {above, gain(above).displacement};
+  }
+
+  Travel travel(Wide t_end, Wide r, Wide v, Wide a0, Wide af) const {
+    const std::array<Line, 7> lines = {{{a0, jerk_},
+                                        {a_max_, 0},
+                                        {af + jerk_ * t_end, -jerk_},
+                                        {a0, -jerk_},
+                                        {a_min_, 0},
+                                        {af - jerk_ * t_end, jerk_},
+                                        {r, -jerk_}}};
+    const auto acceleration = [&](Wide t) {
+      const Wide high = std::min({lines[0].at(t), lines[1].at(t), lines[2].at(t)});
+      const Wide low = std::max({lines[3].at(t), lines[4].at(t), lines[5].at(t)});
+      return std::max(low, std::min(high, lines[6].at(t)));
+    };
+    std::array<Wide, 23> borders;
+    std::size_t count = 0;
+    borders[count++] = 0;
+    borders[count++] = t_end;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      for (std::size_t j = i + 1; j < lines.size(); ++j) {
+        if (lines[i].slope == lines[j].slope) continue;
+        const Wide t = (lines[j].offset - lines[i].offset) / (lines[i].slope - lines[j].slope);
+        if (t > 0 && t < t_end) borders[count++] = t;
+      }
+    }
+    std::sort(borders.begin(), borders.begin() + static_cast<std::ptrdiff_t>(count));
+    Travel result;
+    const Wide v_start = v;
+    result.highest_velocity = v;
+    for (std::size_t i = 0; i + 1 < count; ++i) {
+      const Wide dt = borders[i + 1] - borders[i];
+      if (!(dt > 0)) continue;
+      const Wide a = acceleration(borders[i]);
+      const Wide b = acceleration(borders[i + 1]);
+      if (a > 0 && b < 0) {
+        result.highest_velocity = std::max(result.highest_velocity, v + a * a / (a - b) * dt / 2);
+      }
+      result.displacement += dt * (v + dt * (2 * a + b) / 6);
+      v += dt * (a + b) / 2;
+      result.highest_velocity = std::max(result.highest_velocity, v);
+    }
+    result.velocity_gain = v - v_start;
+    return result;
+  }
+
+  Wide sign_, v0_, a0_, vf_, af_, v_max_, a_max_, a_min_, jerk_;
+};
+
+}  // namespace
+
+bool slowly_feasible(const AxisProblem& axis, double duration_s, double slack) {
+  const Wide t = duration_s;
+  const Wide ramp = std::fabs(axis.target_acceleration - axis.acceleration) / axis.limits.max_jerk;
+  if (t < ramp * (1 - slack)) return false;
+  const SlowAxis upper(axis, false);
+  const SlowAxis lower(axis, true);
+  const Wide gain = axis.target_velocity - axis.velocity;
+  const Wide v_slack =
+      slack * (std::fabs(axis.velocity) + std::fabs(axis.target_velocity) +
+               t * std::max(axis.limits.max_acceleration, -axis.limits.min_acceleration));
+  if (gain > upper.largest_gain(t) + v_slack || gain < upper.smallest_gain(t) - v_slack) {
+    return false;
+  }
+  const Wide p_slack = v_slack * t;
+  return axis.displacement <= upper.largest_displacement(t) + p_slack &&
+         axis.displacement >= -lower.largest_displacement(t) - p_slack;
+}
+
+}  // namespace hoof::tools::trajectory

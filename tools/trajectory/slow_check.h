@@ -1,0 +1,23 @@
+// A slow, independent test of whether one axis can take a duration: no closed forms of
+// displacement, no case distinctions. Shares nothing with firmware/trajectory but the numbers.
+//
+// For a duration T the acceleration lies between the envelopes
+//   high(t) = min(a0 + J t, a_max, af + J (T - t)),  low(t) = max(a0 - J t, a_min, af - J (T - t)).
+// The largest displacement with a given velocity gain is high before low with a ramp of -J between,
+// that is, clamp(r - J t, low(t), high(t)) for the one r that gives the gain (found by halving).
+// All of it is piecewise linear; it is integrated between the crossings of its lines. Where its
+// velocity passes v_max, a cruise replaces the middle. The smallest displacement is that of the
+// mirrored axis.
+#pragma once
+
+#include "firmware/trajectory/axis_problem.h"
+
+namespace hoof::tools::trajectory {
+
+using AxisProblem = firmware::trajectory::AxisProblem<double>;
+
+// Start and target inside the limits, jerk limit finite. Feasible up to `slack` (relative, on the
+// velocity gain and the displacement).
+bool slowly_feasible(const AxisProblem& axis, double duration_s, double slack);
+
+}  // namespace hoof::tools::trajectory
