@@ -138,12 +138,14 @@ class Planner {
     const Real t = axes_[joint_].first_feasible(axis_duration_s_[joint_]);
     if (t < 0) return failure(joint_);
     if (!is_finite(t)) return Result::kOutOfRange;
-    const Real step = next_step(t);
-    axis_duration_s_[joint_] = step;
-    if (step != t) {
-      return ++tests_ > kTestsPerJoint ? Result::kNoCommonDuration : Result::kPlanning;
+    Real& duration_s = axis_duration_s_[joint_];
+    if (t > duration_s * (1 + kRounding<Real>)) {
+      duration_s = next_step(t);
+      if (duration_s != t) {
+        return ++tests_ > kTestsPerJoint ? Result::kNoCommonDuration : Result::kPlanning;
+      }
     }
-    duration_s_ = maximum(duration_s_, t);
+    duration_s_ = maximum(duration_s_, duration_s);
     tests_ = 0;
     if (next_joint()) stage_ = Stage::kBuild;
     return Result::kPlanning;
@@ -160,9 +162,12 @@ class Planner {
                  : cause;
     }
     if (!is_finite(t)) return Result::kOutOfRange;
-    const Real step = next_step(t);
-    agreed_ = step != t ? 0 : t > duration_s_ ? 1 : agreed_ + 1;
-    duration_s_ = step;
+    if (t <= duration_s_ * (1 + kRounding<Real>)) {
+      ++agreed_;
+    } else {
+      duration_s_ = next_step(t);
+      agreed_ = duration_s_ == t ? 1 : 0;
+    }
     if (++tests_ > kTestsPerJoint * input_->joints * input_->joints) {
       return Result::kNoCommonDuration;
     }

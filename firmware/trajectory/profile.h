@@ -24,8 +24,9 @@ struct Sample {
 template <typename Real>
 class Profile {
  public:
-  // Two signals of seven phases have twelve borders inside, hence thirteen pieces; two more brake.
-  static constexpr int kMaxPieces = 2 + 2 * Signal<Real>::kMaxPhases - 1;
+  // Two signals of seven phases have twelve borders inside, hence thirteen pieces; one more where
+  // they end a rounding error apart, twice when merged from both ends; two more brake.
+  static constexpr int kMaxPieces = 2 + 2 * Signal<Real>::kMaxPhases - 1 + 2;
 
   struct Piece {
     Real begin_s;
@@ -116,17 +117,27 @@ class Profile {
   }
 
   // Where a walk through a signal stands: its phase, what is left of it, the acceleration there.
+  // After its end a signal stays at its last acceleration: rounding may make the other one last
+  // longer.
   struct Cursor {
+    explicit Cursor(const Signal<Real>& of) : signal(of), rest(of.phase(0)) {}
+
+    bool done() const { return index == signal.count(); }
+    void spend(Real t) {
+      if (done()) return;
+      rest.acceleration += t * rest.jerk;
+      rest.duration_s -= t;
+      if (rest.duration_s > 0) return;
+      if (++index < signal.count()) {
+        rest = signal.phase(index);
+      } else {
+        rest.jerk = 0;
+      }
+    }
+
     const Signal<Real>& signal;
     int index = 0;
-    Phase<Real> rest = signal.phase(0);
-
-    bool last() const { return index + 1 == signal.count(); }
-    void spend(Real t) {
-      rest.duration_s -= t;
-      rest.acceleration += t * rest.jerk;
-    }
-    void next() { rest = signal.phase(++index); }
+    Phase<Real> rest;
   };
 
   // Both signals merged, border by border. When both spend their longest phase in the middle, the
@@ -138,7 +149,7 @@ class Profile {
     const Real head_s = maximum(upper.head_s, lower.head_s);
     const Real tail_s = maximum(upper.tail_s, lower.tail_s);
     const Real middle_s = duration_s - head_s - tail_s;
-    if (!upper.steady() || !lower.steady() || !(middle_s > head_s + tail_s)) {
+    if (!upper.steady() || !lower.steady() || !(middle_s > 0)) {
       merge(mix.upper, mix.lower, mix.weight, scale);
       return;
     }
@@ -190,24 +201,15 @@ class Profile {
   void merge(const Signal<Real>& upper_signal, const Signal<Real>& lower_signal, Real weight,
              Real scale) {
     if (upper_signal.count() == 0 || lower_signal.count() == 0) return;
-    Cursor upper{upper_signal};
-    Cursor lower{lower_signal};
-    for (;;) {
-      const bool both_last = upper.last() && lower.last();
-      // Rounding may make one signal end a hair before the other's last border.
-      const bool upper_ends =
-          !upper.last() && (lower.last() || upper.rest.duration_s <= lower.rest.duration_s);
-      const bool lower_ends =
-          !lower.last() && (upper.last() || lower.rest.duration_s <= upper.rest.duration_s);
-      const Real step = both_last    ? maximum(upper.rest.duration_s, lower.rest.duration_s)
-                        : upper_ends ? upper.rest.duration_s
-                                     : lower.rest.duration_s;
-      append(mixed(upper.rest, lower.rest, weight, positive_part(step)), scale);
-      if (both_last) return;
+    Cursor upper(upper_signal);
+    Cursor lower(lower_signal);
+    while (!upper.done() || !lower.done()) {
+      const Real step = upper.done()   ? lower.rest.duration_s
+                        : lower.done() ? upper.rest.duration_s
+                                       : minimum(upper.rest.duration_s, lower.rest.duration_s);
+      append(mixed(upper.rest, lower.rest, weight, step), scale);
       upper.spend(step);
       lower.spend(step);
-      if (upper_ends) upper.next();
-      if (lower_ends) lower.next();
     }
   }
 
