@@ -75,7 +75,7 @@ void ControlLoop::watch_sync(std::int64_t now_ns) {
   }
 }
 
-/// Bus 1 first: the drives' replies belong to the SYNC that waits on bus 0.
+/// Both buses are emptied before a tick runs: the replies on bus 1 belong to the SYNC on bus 0.
 void ControlLoop::read(std::int64_t now_ns) {
   inbox_.drain(*buses_[1], 1, now_ns);
   inbox_.drain(*buses_[0], 0, now_ns);
@@ -166,8 +166,10 @@ void ControlLoop::record(std::int64_t now_ns) {
   const control::LegMotion& leg = controller_.leg();
   t.leg_set_point_rad = leg.set_point_rad();
   t.foot_set_point_m = leg.kinematics().foot_m(leg.set_point_rad());
-  t.foot_m = leg.kinematics().foot_m(
-      {t.state[index(Joint::kHip)].position_rad, t.state[index(Joint::kKnee)].position_rad});
+  const control::LegAngles measured{t.state[index(Joint::kHip)].position_rad,
+                                    t.state[index(Joint::kKnee)].position_rad};
+  t.foot_m = leg.kinematics().foot_m(measured);
+  t.foot_pitch_rad = leg.foot_pitch_rad(measured);
   t.phase_cycles = leg.path().phase_cycles();
   t.gait_rate_Hz = leg.path().rate_Hz();
   t.ground = controller_.ground();

@@ -26,6 +26,7 @@ struct Telemetry {
   control::LegAngles leg_set_point_rad;
   control::PlaneVector foot_m;            // measured sole point from the hip
   control::PlaneVector foot_set_point_m;  // commanded sole point from the hip
+  float foot_pitch_rad = 0.0f;            // measured, front up +
   float phase_cycles = 0.0f;              // place on the stance path; 0.75 is its top
   float gait_rate_Hz = 0.0f;
   control::GroundEstimate ground;

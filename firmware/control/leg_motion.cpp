@@ -8,6 +8,8 @@ LegMotion::LegMotion(const Settings& settings, float period_s)
       kinematics_(settings.leg_model.thigh_m, settings.leg_model.shank_m),
       dynamics_(settings.leg_model),
       path_(settings.path),
+      level_shank_rad_(
+          LegKinematics::shank_angle_rad(kinematics_.angles(path_.deepest_m()).angles)),
       generator_(period_s) {
   for (int joint = 0; joint < 2; ++joint) {
     input_.set_limits(joint, settings_.speed_rad_s, settings_.acceleration_rad_s2,

@@ -35,6 +35,12 @@ class LegMotion {
   /// False once a point of the path lay beyond the reach: the command is then not to be trusted.
   bool reachable() const { return reachable_; }
 
+  /// The foot is fixed to the shank so that it is level at the deepest point of the path. Positive:
+  /// its front points up.
+  float foot_pitch_rad(LegAngles q) const {
+    return LegKinematics::shank_angle_rad(q) - level_shank_rad_;
+  }
+
   LegAngles acceleration_rad_s2() const { return acceleration_; }  // commanded
   LegAngles set_point_rad() const { return position_; }
   const StancePath& path() const { return path_; }
@@ -54,6 +60,7 @@ class LegMotion {
   LegKinematics kinematics_;
   LegDynamics dynamics_;
   StancePath path_;
+  float level_shank_rad_;
   Generator generator_;
   Generator::InputType input_;
   Generator::OutputType move_;

@@ -15,8 +15,9 @@ struct ToeSettings {
   float acceleration_rad_s2 = 20.0f;  // 0.24 Nm
   float jerk_rad_s3 = 1000.0f;
   float largest_angle_rad = 0.698132f;  // 40 degrees, the widest of the source paper
-  /// A jam: at least this torque, standing still, for this long, while a move is unfinished.
-  float jam_torque_Nm = 4.0f;  // 2.7 times the sand's 1.5 Nm
+  /// A jam: at least this torque, standing still so far from the target, for this long.
+  float jam_torque_Nm = 4.0f;      // 2.7 times the sand's 1.5 Nm
+  float jam_distance_rad = 0.05f;  // 3 degrees: a load of 12 Nm, beyond any that sand makes
   float jam_time_s = 0.2f;
 };
 

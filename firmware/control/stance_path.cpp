@@ -26,6 +26,10 @@ void StancePath::advance(float dt_s) {
   phase_ += static_cast<std::uint32_t>(rate_Hz_ * dt_s * 0x1p32f + 0.5f);
 }
 
+PlaneVector StancePath::deepest_m() const {
+  return {0.0f, settings_.centre_above_sand_m - settings_.hip_above_sand_m - settings_.semi_z_m};
+}
+
 PathPoint StancePath::point() const {
   const SinCos p = sin_cos(phase_cycles() * kTwoPi);
   const float w = rate_Hz_ * kTwoPi;

@@ -34,6 +34,7 @@ class StancePath {
   void advance(float dt_s);
 
   PathPoint point() const;
+  PlaneVector deepest_m() const;
   float phase_cycles() const { return static_cast<float>(phase_ >> 8) * 0x1p-24f; }
   float rate_Hz() const { return rate_Hz_; }
   bool at_rest() const { return rate_Hz_ == 0.0f && ramp_s_ >= ramp_length_s_; }

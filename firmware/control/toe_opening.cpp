@@ -32,12 +32,14 @@ JointCommand ToeOpening::step(const JointState& toe) {
                        smooth_friction_Nm(settings_.friction_Nm, velocity_rad_s)};
 }
 
-/// A jam may outlast the set point's own move, so what counts is the distance still to go.
+/// A jam may outlast the set point's own move, so what counts is the distance still to go; toes
+/// that hold a load are off their target, too, but never so far.
 void ToeOpening::watch_for_jam(const JointState& toe) {
   constexpr float kStandstill_rad_s = 0.06f;  // three codes of the reply's velocity
   const bool pushing = absolute(toe.torque_Nm) >= settings_.jam_torque_Nm;
   const bool still = absolute(toe.velocity_rad_s) < kStandstill_rad_s;
-  jam_s_ = pushing && still ? jam_s_ + period_s_ : 0.0f;
+  const bool astray = absolute(target_rad_ - toe.position_rad) > settings_.jam_distance_rad;
+  jam_s_ = pushing && still && astray ? jam_s_ + period_s_ : 0.0f;
 }
 
 }  // namespace hoof::firmware::control

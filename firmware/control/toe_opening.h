@@ -25,7 +25,7 @@ class ToeOpening {
   float target_rad() const { return target_rad_; }
   float set_point_rad() const { return set_point_.position[0]; }
   bool moving() const { return moving_; }
-  /// The toe pushed hard without moving during a move, for long enough.
+  /// The toe pushed hard without moving, far from its target, for long enough.
   bool jammed() const { return jam_s_ >= settings_.jam_time_s; }
 
  private:

@@ -54,7 +54,6 @@ FaultBits TorqueGate::inspect(const control::PerJoint<JointState>& joints, Mode 
   if (!watching_) {  // drives get the freshness time to answer for the first time
     watching_ = true;
     watched_since_ns_ = now_ns;
-    for (JointState& last : last_) last.received = false;
   }
   FaultBits found = 0;
   for (std::size_t i = 0; i < kJointCount; ++i) {

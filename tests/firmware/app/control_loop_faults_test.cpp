@@ -163,6 +163,15 @@ TEST_CASE("A drive's own error, heat and a jump of its angle each stop the foot"
   }
 }
 
+TEST_CASE("Toes forced beyond their travel stop the foot, once their zero is known") {
+  LoopBench bench;
+  bring_to_running(bench);
+  bench.toe.plant.load_Nm = 14.0;  // the gate lets the drive resist with 10
+  REQUIRE(bench.run_until(Mode::kDampedStop, 500) > 0);
+  CHECK(bench.loop->faults() == fault::kOutsideTravel);
+  CHECK(bench.loop->telemetry().state[0].position_rad > 1.05f);
+}
+
 TEST_CASE("Bus off is a fault") {
   LoopBench bench;
   bring_to_running(bench);

@@ -305,6 +305,24 @@ TEST_CASE("A rig without a leg homes, opens and refuses to run; one without toes
   CHECK(stilt.controller.wish().joint[0].action == DriveAction::kExit);
 }
 
+TEST_CASE("What was felt before the drives were off is forgotten") {
+  Bench bench;
+  bring_to(bench, Mode::kReady);
+  const LegAngles q{float(bench.plants[1].q_rad), float(bench.plants[2].q_rad)};
+  const LegAngles push = bench.controller.leg().kinematics().joint_torque_Nm(q, {0.0f, 300.0f});
+  bench.plants[1].load_Nm = push.hip_rad;
+  bench.plants[2].load_Nm = push.knee_rad;
+  bench.run(200);
+  REQUIRE(bench.controller.ground().contact);
+  bench.plants[1].load_Nm = bench.plants[2].load_Nm = 0.0;
+  bench.controller.emergency_stop();
+  bench.controller.order_reset();
+  bench.run(100);
+  bench.controller.order_ready(0.1f);
+  bench.run(7);
+  CHECK_FALSE(bench.controller.ground().contact);
+}
+
 TEST_CASE("Drives that never answered are not commanded") {
   FootController controller({}, {});
   controller.order_ready(0.1f);

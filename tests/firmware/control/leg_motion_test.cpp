@@ -66,7 +66,7 @@ TEST_CASE(
   REQUIRE(walk.leg.on_path());
   walk.leg.set_frequency(1.12f);
   LegAngles previous = walk.leg.set_point_rad();
-  float peak_rad_s = 0.0f, lowest_m = 0.0f;
+  float peak_rad_s = 0.0f, lowest_m = 0.0f, up_rad = 0.0f, down_rad = 0.0f;
   for (int i = 0; i < 3000; ++i) {
     walk.run(1);
     const PlaneVector foot = walk.leg.kinematics().foot_m(walk.leg.set_point_rad());
@@ -81,11 +81,17 @@ TEST_CASE(
     previous = now;
     lowest_m = std::min(lowest_m, foot.z + 0.5f);
     if (foot.z < -0.5f) {
+      const float pitch_rad = walk.leg.foot_pitch_rad(now);
+      up_rad = std::max(up_rad, pitch_rad);
+      down_rad = std::min(down_rad, pitch_rad);
       peak_rad_s = std::max({peak_rad_s, std::abs(walk.command.hip.velocity_rad_s),
                              std::abs(walk.command.knee.velocity_rad_s)});
     }
   }
   CHECK(lowest_m == Approx(-0.035).margin(1e-5));
+  // Data page: pitch -16 to +7 degrees in stance.
+  CHECK(up_rad == Approx(0.122).margin(0.01));
+  CHECK(down_rad == Approx(-0.279).margin(0.01));
   CHECK(peak_rad_s > 0.8f);
   CHECK(peak_rad_s < 1.9f);  // data page: 1.82 rad/s at 1.12 Hz over the whole cycle
 }

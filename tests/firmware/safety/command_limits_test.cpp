@@ -102,7 +102,12 @@ TEST_CASE("Whatever finite command comes, the torque made of it keeps ceiling an
     CAPTURE(joint, state.position_rad, state.velocity_rad_s, c.position_rad, c.velocity_rad_s,
             c.kp_Nm_rad, c.kd_Nm_s_rad, c.torque_Nm, previous_Nm);
     limit_targets(limits, state, c);
+    const float distance_rad = std::abs(c.position_rad - state.position_rad);
+    const float speed_off_rad_s = std::abs(c.velocity_rad_s - state.velocity_rad_s);
     limit_torque(limits, state, previous_Nm, c);
+    // Targets only ever come nearer to what is measured (within rounding).
+    REQUIRE(std::abs(c.position_rad - state.position_rad) <= distance_rad + 1e-6f);
+    REQUIRE(std::abs(c.velocity_rad_s - state.velocity_rad_s) <= speed_off_rad_s + 1e-5f);
     const float torque_Nm = predicted_torque_Nm(c, state);
     // Terms of up to 1e4 Nm that cancel: float carries 1e-3 Nm of them.
     const float rounding_Nm = 4e-3f;

@@ -76,6 +76,20 @@ TEST_CASE("A drive that never answers is lost 20 ms after the start of watching"
   CHECK(ms == 22);  // 0 ... 20 ms pass, 21 ms is too long
 }
 
+TEST_CASE("A reply from before the start of watching does not count, neither for nor against") {
+  TorqueGate gate({});
+  control::PerJoint<JointState> joints{};
+  for (JointState& joint : joints) {
+    joint.received = true;
+    joint.received_ns = 5 * kMillisecond_ns;
+    joint.error = 1;
+  }
+  CHECK(gate.inspect(joints, Mode::kOff, 900 * kMillisecond_ns) == 0);
+  CHECK(gate.inspect(joints, Mode::kHoming, 1000 * kMillisecond_ns) == 0);
+  CHECK(gate.inspect(joints, Mode::kHoming, 1020 * kMillisecond_ns) == 0);
+  CHECK(gate.inspect(joints, Mode::kHoming, 1021 * kMillisecond_ns) == fault::kDriveLost);
+}
+
 TEST_CASE("Nothing is expected of drives while the mode does not use them") {
   TorqueGate gate({});
   control::PerJoint<JointState> joints{};
