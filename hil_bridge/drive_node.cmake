@@ -1,2 +1,0 @@
-add_library(hoof_drive_node STATIC drive_node.cpp)
-target_link_libraries(hoof_drive_node PUBLIC hoof_protocol hoof_hal hoof_drive)
