@@ -34,6 +34,7 @@ class Sinkage final : public Experiment {
 
   bool rested() const { return rested_; }
   double max_depth_m() const { return max_depth_m_; }
+  double final_depth_m() const { return depth_m(); }
 
  protected:
   void after_interval() override;

@@ -9,6 +9,8 @@ namespace hoof::tools {
 // One function per command, each in a file of its own: adds the command to `app` and arranges
 // that parsing it fills `invocation`.
 void add_report_command(CLI::App& app, Invocation& invocation);
+void add_sinkage_command(CLI::App& app, Invocation& invocation);
+void add_traction_command(CLI::App& app, Invocation& invocation);
 void add_version_command(CLI::App& app, Invocation& invocation);
 
 }  // namespace hoof::tools

@@ -67,6 +67,8 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
 
   Invocation invocation;
+  add_sinkage_command(app, invocation);
+  add_traction_command(app, invocation);
   add_report_command(app, invocation);
   add_version_command(app, invocation);
 

@@ -1,0 +1,59 @@
+// The real firmware and the simulated plant on one clock: SYNC k, the firmware's answer over the
+// buses, one millisecond of plant, SYNC k + 1. However slow the sand is, control notices nothing.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "firmware/app/control_loop.h"
+#include "hal/stepped_clock.h"
+#include "hil_bridge/drive_node.h"
+#include "hil_bridge/supervisor.h"
+#include "hil_bridge/wires.h"
+#include "sim/experiments/experiment.h"
+
+namespace hoof::bridge {
+
+/// Torques at the joint and the drives' orders, as seen over one tick.
+struct TickTorques {
+  std::array<double, sim::kJointCount> mean_Nm{};  // gear on joint
+  std::array<double, sim::kJointCount> peak_Nm{};  // largest magnitude of any exchange interval
+};
+
+class LockStep {
+ public:
+  static constexpr std::int64_t kTick_ns = 1'000'000;
+
+  /// @throws std::invalid_argument where the plant's exchange interval does not divide a tick
+  LockStep(sim::Experiment& experiment, const firmware::app::Parameters& parameters, Wires& wires);
+
+  /// One control period. @throws std::runtime_error when the plant diverges
+  void tick();
+
+  Supervisor& supervisor() { return supervisor_; }
+  const Supervisor& supervisor() const { return supervisor_; }
+  const firmware::app::ControlLoop& firmware() const { return firmware_; }
+  const TickTorques& torques() const { return torques_; }
+  std::uint32_t ticks() const { return tick_; }
+  std::int64_t now_ns() const { return clock_.now_ns(); }
+
+ private:
+  void send_sync();
+  void poll_nodes();
+  void exchange();
+
+  sim::Experiment& experiment_;
+  Wires& wires_;
+  hal::SteppedClock clock_;
+  std::array<hal::CanBus*, kBusCount> master_{};
+  firmware::app::ControlLoop firmware_;
+  Supervisor supervisor_;
+  std::vector<DriveNode> drives_;
+  std::int64_t exchange_ns_;
+  std::uint32_t tick_ = 0;
+  TickTorques torques_;
+};
+
+}  // namespace hoof::bridge

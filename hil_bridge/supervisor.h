@@ -1,0 +1,54 @@
+// The operator's side of the bus: gives orders, watches heartbeat and telemetry. Knows the firmware
+// only through its frames.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "firmware/protocol/messages.h"
+#include "hal/can_bus.h"
+
+namespace hoof::bridge {
+
+class Supervisor {
+ public:
+  /// @param bus connection to bus 0; must outlive the supervisor
+  /// @param id of this supervisor, 1 to 255
+  explicit Supervisor(hal::CanBus& bus, std::uint8_t id = 1) : bus_(bus), id_(id) {}
+
+  /// Replaces the order in force: it is sent, and sent again until it is acknowledged.
+  void order(firmware::protocol::Order order, double toe_angle_rad = 0, double frequency_Hz = 0);
+
+  /// Takes all waiting frames and sends what is due. Call it at least once per millisecond.
+  void poll(std::int64_t now_ns);
+
+  /// True once the order in force was accepted.
+  bool accepted() const { return accepted_; }
+  /// The last heartbeat, if one came and its protocol hash was ours.
+  const std::optional<firmware::protocol::Heartbeat>& heartbeat() const { return heartbeat_; }
+  /// The toes as last told by the firmware.
+  const std::optional<firmware::protocol::FootToe>& toe() const { return toe_; }
+
+  /// Why this cannot go on, in words: a refused order, a fault, another dictionary; else empty.
+  const std::string& trouble() const { return trouble_; }
+
+ private:
+  void take(const hal::CanFrame& frame);
+  void take_acknowledge(const firmware::protocol::OrderAcknowledge& answer);
+  void take_heartbeat(const firmware::protocol::Heartbeat& heartbeat);
+  void send(std::int64_t now_ns);
+
+  hal::CanBus& bus_;
+  std::uint8_t id_;
+  std::optional<firmware::protocol::SupervisorOrder> order_;
+  std::uint8_t counter_ = 0;
+  bool accepted_ = false;
+  std::int64_t sent_ns_ = 0;
+  bool sent_ = false;
+  std::optional<firmware::protocol::Heartbeat> heartbeat_;
+  std::optional<firmware::protocol::FootToe> toe_;
+  std::string trouble_;
+};
+
+}  // namespace hoof::bridge

@@ -1,0 +1,116 @@
+#include "hil_bridge/wires.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "hal/in_process/in_process_bus.h"
+#include "hal/socketcan/socketcan_bus.h"
+
+namespace hoof::bridge {
+namespace {
+
+class InProcessWires final : public Wires {
+ public:
+  explicit InProcessWires(Observer observer) : observer_(std::move(observer)) {
+    for (int bus = 0; bus < kBusCount; ++bus) {
+      hal::InProcessBusSettings settings;
+      settings.name = "can" + std::to_string(bus);
+      // The frames of all buses must reach the observer in the order of time, so they wait here
+      // until both wires have come equally far.
+      buses_[bus] =
+          std::make_unique<hal::InProcessBus>(settings, [this, bus](const hal::WireRecord& record) {
+            seen_.push_back({bus, record.frame});
+          });
+    }
+  }
+
+  hal::CanBus& attach(int bus, const std::string& node) override {
+    return buses_[bus]->attach(node);
+  }
+
+  void advance_to(std::int64_t t_ns) override {
+    for (const auto& bus : buses_) bus->advance_to(t_ns);
+    std::stable_sort(seen_.begin(), seen_.end(), [](const Seen& a, const Seen& b) {
+      return a.frame.stamp_ns < b.frame.stamp_ns;
+    });
+    frames_ += seen_.size();
+    if (observer_) {
+      for (const Seen& s : seen_) observer_(s.bus, s.frame);
+    }
+    seen_.clear();
+  }
+
+  double load_ratio(int bus) const override { return buses_[bus]->mean_load_ratio(); }
+  double worst_load_ratio(int bus) const override { return buses_[bus]->load().worst_10ms_ratio(); }
+  std::uint64_t frames() const override { return frames_; }
+
+ private:
+  struct Seen {
+    int bus;
+    hal::CanFrame frame;
+  };
+
+  Observer observer_;
+  std::array<std::unique_ptr<hal::InProcessBus>, kBusCount> buses_;
+  std::vector<Seen> seen_;
+  std::uint64_t frames_ = 0;
+};
+
+class SocketCanWires final : public Wires {
+ public:
+  SocketCanWires(const std::string& interfaces, Observer observer)
+      : observer_(std::move(observer)) {
+    const std::size_t comma = interfaces.find(',');
+    names_[0] = interfaces.substr(0, comma);
+    names_[1] = comma == std::string::npos ? names_[0] : interfaces.substr(comma + 1);
+    // One listener per interface: a frame on a shared interface is logged once.
+    for (int bus = 0; bus < kBusCount; ++bus) {
+      if (bus == 0 || names_[bus] != names_[0]) listeners_[bus] = open(names_[bus]);
+    }
+  }
+
+  hal::CanBus& attach(int bus, const std::string&) override {
+    nodes_.push_back(open(names_[bus]));
+    return *nodes_.back();
+  }
+
+  void advance_to(std::int64_t t_ns) override {
+    hal::CanFrame frame;
+    for (int bus = 0; bus < kBusCount; ++bus) {
+      while (listeners_[bus] && listeners_[bus]->receive(frame)) {
+        ++frames_;
+        frame.stamp_ns = t_ns;
+        if (observer_) observer_(bus, frame);
+      }
+    }
+  }
+
+  double load_ratio(int) const override { return -1; }
+  double worst_load_ratio(int) const override { return -1; }
+  std::uint64_t frames() const override { return frames_; }
+
+ private:
+  static std::unique_ptr<hal::SocketCanBus> open(const std::string& name) {
+    hal::SocketCanSettings settings;
+    settings.interface = name;
+    return std::make_unique<hal::SocketCanBus>(settings);
+  }
+
+  Observer observer_;
+  std::array<std::string, kBusCount> names_;
+  std::array<std::unique_ptr<hal::SocketCanBus>, kBusCount> listeners_;
+  std::vector<std::unique_ptr<hal::SocketCanBus>> nodes_;
+  std::uint64_t frames_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Wires> in_process_wires(Wires::Observer observer) {
+  return std::make_unique<InProcessWires>(std::move(observer));
+}
+
+std::unique_ptr<Wires> socketcan_wires(const std::string& interfaces, Wires::Observer observer) {
+  return std::make_unique<SocketCanWires>(interfaces, std::move(observer));
+}
+
+}  // namespace hoof::bridge

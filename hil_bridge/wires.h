@@ -1,0 +1,45 @@
+// The buses of a run: in one process with simulated time, or on SocketCAN interfaces.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "firmware/protocol/dictionary.h"
+#include "hal/can_bus.h"
+
+namespace hoof::bridge {
+
+inline constexpr int kBusCount = int(firmware::protocol::kBusCount);
+
+class Wires {
+ public:
+  /// Called for every frame on any bus, in order; the frame's stamp is simulated time.
+  using Observer = std::function<void(int bus, const hal::CanFrame&)>;
+
+  virtual ~Wires() = default;
+
+  /// A new node's connection to one bus. Lives as long as the wires.
+  virtual hal::CanBus& attach(int bus, const std::string& node) = 0;
+
+  /// Simulated time has come to t_ns: what has arrived until then can be received.
+  virtual void advance_to(std::int64_t t_ns) = 0;
+
+  /// Share of the time for which bus i was busy; negative where the wire cannot tell.
+  virtual double load_ratio(int bus) const = 0;
+  /// The same in the worst 10 ms.
+  virtual double worst_load_ratio(int bus) const = 0;
+  virtual std::uint64_t frames() const = 0;
+};
+
+/// Buses at 1 Mbit/s in this process: arbitration and frame times as on a real wire.
+std::unique_ptr<Wires> in_process_wires(Wires::Observer observer);
+
+/// Both logical buses on SocketCAN: "vcan0" for both, or "can0,can1". Frames arrive when the kernel
+/// hands them over; stamps in the log are the simulated time at which the bridge saw them.
+/// @throws std::runtime_error naming the interface and what to do
+std::unique_ptr<Wires> socketcan_wires(const std::string& interfaces, Wires::Observer observer);
+
+}  // namespace hoof::bridge

@@ -1,0 +1,77 @@
+#include "tools/experiment/bench.h"
+
+#include <Eigen/Geometry>
+#include <filesystem>
+
+#include "sim/multibody/prescribed_rig.h"
+#include "sim/multibody/sinkage_rig.h"
+#include "sim/multibody/traction_rig.h"
+#include "sim/terrain/bed_store.h"
+#include "sim/terrain/dem_terrain.h"
+
+namespace hoof::tools {
+namespace {
+
+std::unique_ptr<sim::Rig> make_rig(const RunSettings& run) {
+  if (run.is_sinkage()) {
+    sim::SinkageRigSettings s;
+    s.foot = run.foot;
+    s.load_N = run.sinkage.load_N;
+    s.load_as = run.sinkage.load_as;
+    s.start_height_m = run.sinkage.start_height_m;
+    return std::make_unique<sim::SinkageRig>(s);
+  }
+  const sim::FootPoint top = run.traction.ellipse.at(0);
+  if (run.traction.prescribed) {
+    return std::make_unique<sim::PrescribedRig>(run.foot, *run.leg, top);
+  }
+  sim::TractionRigSettings s;
+  s.foot = run.foot;
+  s.leg = *run.leg;
+  s.start_x_m = top.x_m;
+  s.start_z_m = top.z_m;
+  return std::make_unique<sim::TractionRig>(s);
+}
+
+}  // namespace
+
+std::unique_ptr<sim::Terrain> make_terrain(const RunSettings& run, const BenchProgress& progress,
+                                           const BenchNote& note) {
+  if (!run.on_grains) return std::make_unique<sim::RigidTerrain>(run.rigid);
+  const sim::BedStore store(std::filesystem::path(HOOF_CACHE_DIR) / "beds");
+  const std::filesystem::path file = store.file(run.bed, run.materials, run.seed);
+  if (!std::filesystem::exists(file)) {
+    note("settling the bed '" + run.bed.name + "' (about " +
+         std::to_string(sim::grains_to_pour(run.bed, 0.6)) +
+         " grains poured); kept for later runs");
+  }
+  const sim::StoredBed bed = store.get(run.bed, run.materials, run.seed, run.threads, progress);
+  if (!bed.discarded.empty()) note(bed.discarded + "; the bed was made anew");
+  return std::make_unique<sim::DemTerrain>(sim::dem_settings(run.bed, run.materials, run.threads),
+                                           bed.state);
+}
+
+std::unique_ptr<sim::Experiment> make_experiment(const RunSettings& run,
+                                                 const BenchProgress& progress,
+                                                 const BenchNote& note) {
+  auto plant = std::make_unique<sim::Plant>(make_rig(run), run.drives,
+                                            make_terrain(run, progress, note), run.coupling);
+  if (run.is_sinkage()) return std::make_unique<sim::Sinkage>(run.sinkage, std::move(plant));
+  return std::make_unique<sim::Traction>(run.traction, std::move(plant));
+}
+
+Eigen::Vector2d footprint_m(const sim::Foot& foot, double toe_rad) {
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector3d& v : foot.middle.vertices_m) box.extend(v.head<2>());
+  if (foot.has_toes) {
+    const Eigen::Rotation2Dd turn(toe_rad);  // the left toe opens to +y
+    for (const Eigen::Vector3d& v : foot.left_toe.vertices_m) {
+      const Eigen::Vector2d p = foot.hinges.left_F_m.head<2>() + turn * v.head<2>();
+      box.extend(p);
+      box.extend(Eigen::Vector2d(p.x(), -p.y()));
+    }
+  }
+  return box.sizes();
+}
+
+}  // namespace hoof::tools

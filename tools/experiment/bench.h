@@ -1,0 +1,29 @@
+// The test bench of a run: ground, rig, drives and the experiment on them.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "sim/experiments/experiment.h"
+#include "tools/experiment/run_settings.h"
+
+namespace hoof::tools {
+
+/// Progress of making a bed: share done; returns false to stop.
+using BenchProgress = std::function<bool(double)>;
+/// Something the user should know while the bench is built.
+using BenchNote = std::function<void(const std::string&)>;
+
+std::unique_ptr<sim::Terrain> make_terrain(const RunSettings& run, const BenchProgress& progress,
+                                           const BenchNote& note);
+
+/// @throws std::runtime_error "stopped" when progress says so while a bed is made
+std::unique_ptr<sim::Experiment> make_experiment(const RunSettings& run,
+                                                 const BenchProgress& progress,
+                                                 const BenchNote& note);
+
+/// Outer size of the foot on the ground in x and y, toes opened by toe_rad, m.
+Eigen::Vector2d footprint_m(const sim::Foot& foot, double toe_rad);
+
+}  // namespace hoof::tools

@@ -1,0 +1,168 @@
+#include "tools/experiment/run_experiment.h"
+
+#include <chrono>
+#include <cstdio>
+#include <iostream>
+
+#include "hil_bridge/session.h"
+#include "tools/experiment/bench.h"
+#include "tools/experiment/recorder.h"
+#include "tools/experiment/summary.h"
+#include "tools/report/report.h"
+#include "tools/run/errors.h"
+#include "tools/run/output_file.h"
+#include "tools/run/progress_line.h"
+#include "tools/run/result_json.h"
+#include "tools/run/run_folder.h"
+#include "tools/run/stop_request.h"
+
+namespace hoof::tools {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+bridge::SessionSettings session_settings(const RunSettings& run) {
+  bridge::SessionSettings s;
+  s.has_toes = run.foot.has_toes;
+  s.toe_rad = run.toe_rad();
+  s.firmware_leg = run.firmware_leg();
+  s.frequency_Hz = run.traction.frequency_Hz;
+  return s;
+}
+
+std::string moment(const sim::Observation& o) {
+  char text[80];
+  std::snprintf(text, sizeof text, "%s, t = %.3f s, depth %.1f mm", sim::to_string(o.phase),
+                o.time_s, o.depth_m * 1e3);
+  return text;
+}
+
+class Run {
+ public:
+  Run(const RunSettings& run, const RunOutput& output)
+      : run_(run),
+        output_(output),
+        folder_({run.kind, output.out, output.force}),
+        style_(choose_progress_style(output.quiet)) {}
+
+  void go() {
+    const Clock::time_point start = Clock::now();
+    write_file(folder_.file("settings.toml"), run_.tree.to_toml());
+    experiment_ = build();
+    const double built_s = seconds_since(start);
+    recorder_ = std::make_unique<Recorder>(run_, folder_.working_path(), output_.live);
+    const bridge::SessionResult session = drive();
+    recorder_->close();
+    const nlohmann::ordered_json result = summarise(run_, *experiment_, session, *recorder_);
+    write_result_json(folder_.file("result.json"), result);
+    // Apart from the results, which are the same every time: how long it took here and now.
+    write_result_json(folder_.file("timing.json"), {{"build_s", built_s},
+                                                    {"run_s", seconds_since(start) - built_s},
+                                                    {"threads", run_.threads}});
+    write_report(folder_.working_path());
+    if (session.interrupted) interrupt("the results up to that moment");
+    print(result);
+    const std::filesystem::path path = folder_.commit();
+    std::cout << path.string() << std::endl;
+  }
+
+ private:
+  std::unique_ptr<sim::Experiment> build() {
+    ProgressLine progress("settling", style_, std::cerr);
+    const auto show = [&](double share) {
+      progress.update(share);
+      return !stop_.requested();
+    };
+    const auto note = [&](const std::string& text) {
+      if (!output_.quiet) std::cerr << "hoof: " << text << "\n";
+    };
+    try {
+      auto experiment = make_experiment(run_, show, note);
+      progress.finish();
+      return experiment;
+    } catch (const std::runtime_error&) {
+      progress.finish();
+      if (stop_.requested()) {
+        throw Interrupted("stopped while the bed was settling; nothing was kept",
+                          stop_.exit_status());
+      }
+      throw;
+    }
+  }
+
+  bridge::SessionResult drive() {
+    ProgressLine progress(run_.kind, style_, std::cerr);
+    const auto log = [this](int bus, const hal::CanFrame& frame) { recorder_->frame(bus, frame); };
+    const std::unique_ptr<bridge::Wires> wires =
+        run_.bus == "in_process" ? bridge::in_process_wires(log) : bridge::socketcan_wires(run_.bus, log);
+    const auto observe = [&](const bridge::TickRecord& record) {
+      recorder_->tick(record);
+      progress.update(experiment_->progress(), moment(record.plant));
+      return !stop_.requested();
+    };
+    try {
+      const bridge::SessionResult result = bridge::run_session(
+          *experiment_, run_.parameters, *wires, session_settings(run_), observe);
+      progress.finish();
+      return result;
+    } catch (const std::runtime_error& error) {
+      progress.finish();
+      recorder_->close();
+      const std::filesystem::path kept = folder_.keep_as("failed");
+      throw CannotFinish(std::string(error.what()) + "; samples and bus log are kept in " +
+                         kept.string());
+    }
+  }
+
+  [[noreturn]] void interrupt(const std::string& what) {
+    const std::filesystem::path kept = folder_.keep_as("interrupted");
+    throw Interrupted("stopped; " + what + " are kept in " + kept.string(), stop_.exit_status());
+  }
+
+  void print(const nlohmann::ordered_json& r) const {
+    const auto mm = [&](const char* key) { return r.at(key).get<double>() * 1e3; };
+    const auto deg = [&](const char* key) { return r.at(key).get<double>() * 57.29577951308232; };
+    if (run_.is_sinkage()) {
+      std::printf("%s foot, %.1f N, %.2g m/s: sank %.2f mm (at rest %.2f mm)%s\n",
+                  run_.foot_name.c_str(), run_.sinkage.load_N, run_.sinkage.speed_m_s,
+                  mm("max_depth_m"), mm("final_depth_m"),
+                  r.at("rested").get<bool>() ? "" : ", not yet at rest");
+    } else {
+      std::printf(
+          "%s foot, %.3g Hz: Fx peak %.1f N, Fz there %.1f N, traction coefficient %.3f, "
+          "off the ellipse by %.1f mm\n",
+          run_.foot_name.c_str(), run_.traction.frequency_Hz, r.at("fx_peak_N").get<double>(),
+          r.at("fz_at_fx_peak_N").get<double>(), r.at("traction_coefficient").get<double>(),
+          mm("ellipse_error_m"));
+    }
+    if (run_.foot.has_toes) {
+      std::printf("toes: ordered %.2f deg, reached %.2f, moved by the sand at most %.2f\n",
+                  deg("toe_command_rad"), deg("toe_reached_rad"), deg("toe_deflection_rad"));
+    }
+    if (r.contains("resolution")) {
+      for (const auto& claim : r["resolution"]["claims_refused"]) {
+        std::printf("cannot say: %s\n", claim.get<std::string>().c_str());
+      }
+    }
+  }
+
+  const RunSettings& run_;
+  const RunOutput& output_;
+  StopRequest stop_;
+  RunFolder folder_;
+  ProgressStyle style_;
+  std::unique_ptr<sim::Experiment> experiment_;
+  std::unique_ptr<Recorder> recorder_;
+};
+
+}  // namespace
+
+void run_experiment(const RunSettings& run, const RunOutput& output) {
+  Run(run, output).go();
+}
+
+}  // namespace hoof::tools

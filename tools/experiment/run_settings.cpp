@@ -1,0 +1,172 @@
+#include "tools/experiment/run_settings.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <thread>
+
+#include "sim/config/config_error.h"
+#include "sim/config/reader.h"
+#include "sim/config/suggestion.h"
+#include "tools/run/csv_writer.h"
+#include "tools/run/errors.h"
+
+namespace hoof::tools {
+namespace {
+
+using firmware::app::Parameters;
+
+constexpr std::array<std::string_view, 10> kSections = {
+    "experiment", "foot",     "leg",           "bed",     "materials",
+    "drives",     "coupling", "rigid_terrain", "control", "use"};
+
+void refuse_unknown_sections(const sim::Settings& tree) {
+  for (const auto& [key, entry] : tree.entries()) {
+    const std::string_view section = std::string_view(key).substr(0, key.find('.'));
+    if (std::find(kSections.begin(), kSections.end(), section) == kSections.end()) {
+      throw sim::ConfigError(entry.origin.text() + ": " + key + ": no section '" +
+                             std::string(section) +
+                             "'; known are experiment, foot, leg, bed, "
+                             "materials, drives, coupling, rigid_terrain, control");
+    }
+  }
+}
+
+/// What the firmware of this rig is told about the rig: which drives there are, where the end stop
+/// is, the leg's lengths and masses. A lab would calibrate the same numbers into its board.
+Parameters rig_parameters(const RunSettings& run) {
+  Parameters p;
+  p.toe_present = run.foot.has_toes ? 1.0f : 0.0f;
+  p.leg_present = run.firmware_leg() ? 1.0f : 0.0f;
+  if (run.foot.has_toes) {
+    p.control.homing.stop_angle_rad = float(run.foot.hinges.min_opening_rad);
+    if (const auto& toe = run.drives[0]) {
+      p.control.toe.friction_Nm = float(toe->coulomb_friction_Nm);
+    }
+  }
+  if (!run.firmware_leg()) return p;
+  const sim::Leg& leg = *run.leg;
+  auto& m = p.control.leg_model;
+  const auto inertia = [](const sim::Link& link) {
+    return float(link.mass_kg * link.gyration_m * link.gyration_m);
+  };
+  m.thigh_m = float(leg.thigh.length_m), m.shank_m = float(leg.shank.length_m);
+  m.thigh_mass_kg = float(leg.thigh.mass_kg), m.shank_mass_kg = float(leg.shank.mass_kg);
+  m.thigh_centre_m = float(leg.thigh.com_from_joint_m);
+  m.shank_centre_m = float(leg.shank.com_from_joint_m);
+  m.thigh_inertia_kg_m2 = inertia(leg.thigh), m.shank_inertia_kg_m2 = inertia(leg.shank);
+  m.foot_mass_kg = float(run.foot.mass_kg);
+  if (const auto& hip = run.drives[1]) {
+    m.rotor_inertia_kg_m2 = float(hip->rotor_inertia_kg_m2);
+    m.friction_Nm = float(hip->coulomb_friction_Nm);
+  }
+  auto& path = p.control.path;
+  path.semi_x_m = float(run.traction.ellipse.half_length_m);
+  path.semi_z_m = float(run.traction.ellipse.half_height_m);
+  path.centre_above_sand_m = float(run.traction.ellipse.centre_height_m);
+  path.hip_above_sand_m = float(leg.hip_height_m);
+  return p;
+}
+
+[[noreturn]] void fail(const sim::Entry& entry, const std::string& key, const std::string& rule) {
+  throw sim::ConfigError(entry.origin.text() + ": " + key + " = " + sim::to_text(entry.value) +
+                         ": " + rule);
+}
+
+/// The entries "control.NAME" over the rig's own.
+void read_control(const sim::Settings& tree, Parameters& parameters) {
+  constexpr std::string_view kPrefix = "control.";
+  for (const auto& [key, entry] : tree.entries()) {
+    if (!key.starts_with(kPrefix)) continue;
+    const std::string_view name = std::string_view(key).substr(kPrefix.size());
+    const firmware::app::ParameterEntry* p = firmware::app::find_parameter(name);
+    if (p == nullptr) {
+      std::vector<std::string> names;
+      for (const auto& known : firmware::app::parameter_table()) names.emplace_back(known.name);
+      const std::string near = sim::suggest(name, names);
+      fail(entry, key,
+           "the firmware has no such parameter" +
+               (near.empty() ? "" : "; did you mean control." + near + "?"));
+    }
+    double value = 0;
+    if (const auto* d = std::get_if<double>(&entry.value)) {
+      value = *d;
+    } else if (const auto* i = std::get_if<std::int64_t>(&entry.value)) {
+      value = double(*i);
+    } else {
+      fail(entry, key, "must be a number");
+    }
+    if (set(parameters, name, float(value)) != firmware::app::SetResult::kOk) {
+      fail(entry, key,
+           "must be in " + format_number(p->minimum) + " ... " + format_number(p->maximum) + " " +
+               std::string(p->unit));
+    }
+  }
+}
+
+void read_experiment(const sim::Reader& root, RunSettings& run) {
+  sim::Reader section = root.section("experiment");
+  section.choice("kind", run.kind, {"sinkage", "traction"});
+  std::string terrain;
+  section.choice("terrain", terrain, {"dem", "rigid"});
+  run.on_grains = terrain == "dem";
+  section.text("bus", run.bus);
+  std::int64_t seed = 0;
+  section.integer("seed", seed, 0, std::int64_t(1) << 53);
+  run.seed = std::uint64_t(seed);
+  section.integer("threads", run.threads, 0, 1024);
+  if (run.threads == 0) run.threads = int(std::max(1u, std::thread::hardware_concurrency()));
+  if (run.is_sinkage()) {
+    run.sinkage = sim::read_sinkage(section);
+  } else {
+    run.traction = sim::read_traction(section);
+  }
+  section.finish();
+}
+
+void read_drives(const sim::Reader& root, RunSettings& run) {
+  sim::Reader drives = root.section("drives");
+  std::string name;
+  drives.text("name", name);
+  const sim::DriveSettings toe = sim::read_drive(drives.section("toe"));
+  const sim::DriveSettings hip = sim::read_drive(drives.section("hip"));
+  const sim::DriveSettings knee = sim::read_drive(drives.section("knee"));
+  drives.finish();
+  if (run.foot.has_toes) run.drives[0] = toe;
+  if (run.firmware_leg()) {
+    run.drives[1] = hip;
+    run.drives[2] = knee;
+  }
+}
+
+}  // namespace
+
+RunSettings read_run_settings(const std::string& experiment,
+                              const std::vector<std::string>& overrides) {
+  RunSettings run;
+  run.tree = sim::Settings::load_experiment(experiment, overrides);
+  refuse_unknown_sections(run.tree);
+  const sim::Reader root(run.tree);
+  read_experiment(root, run);
+  run.foot = sim::read_foot(root.section("foot"));
+  run.foot_name = run.foot.name;
+  if (!run.foot.has_toes && run.toe_rad() != 0) {
+    const sim::Entry* entry = run.tree.find("experiment.toe_deg");
+    // The default opening is for feet that can open; an opening that was asked for is an error.
+    if (entry != nullptr && entry->origin.line == 0) {
+      fail(*entry, "experiment.toe_deg", "the foot '" + run.foot_name + "' has no toes");
+    }
+    (run.is_sinkage() ? run.sinkage.toe_rad : run.traction.toe_rad) = 0;
+  }
+  if (!run.is_sinkage()) run.leg = sim::read_leg(root.section("leg"));
+  run.bed = sim::read_bed(root.section("bed"));
+  run.materials = sim::read_materials(root.section("materials"));
+  read_drives(root, run);
+  run.coupling = sim::read_coupling(root.section("coupling"));
+  run.rigid = sim::read_rigid_terrain(root.section("rigid_terrain"));
+  run.parameters = rig_parameters(run);
+  read_control(run.tree, run.parameters);
+  return run;
+}
+
+}  // namespace hoof::tools

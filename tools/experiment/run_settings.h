@@ -1,0 +1,50 @@
+// The settings of a sinkage or traction run, read and checked as a whole before anything is built.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "firmware/app/parameters.h"
+#include "sim/config/settings.h"
+#include "sim/coupling/plant.h"
+#include "sim/experiments/sinkage.h"
+#include "sim/experiments/traction.h"
+#include "sim/multibody/foot.h"
+#include "sim/multibody/leg.h"
+#include "sim/terrain/bed_settings.h"
+#include "sim/terrain/rigid_terrain.h"
+
+namespace hoof::tools {
+
+struct RunSettings {
+  sim::Settings tree;  // everything as resolved; written beside the results
+  std::string kind;    // "sinkage" or "traction"
+  std::string foot_name;
+  bool on_grains = true;
+  std::string bus;  // "in_process", or SocketCAN interfaces
+  std::uint64_t seed = 0;
+  int threads = 1;
+
+  sim::Foot foot;
+  std::optional<sim::Leg> leg;
+  sim::BedSettings bed;
+  sim::Materials materials;
+  sim::DriveSet drives;
+  sim::CouplingSettings coupling;
+  sim::RigidTerrainSettings rigid;
+  sim::SinkageSettings sinkage;    // of a sinkage run
+  sim::TractionSettings traction;  // of a traction run
+  firmware::app::Parameters parameters;
+
+  bool is_sinkage() const { return kind == "sinkage"; }
+  double toe_rad() const { return is_sinkage() ? sinkage.toe_rad : traction.toe_rad; }
+  bool firmware_leg() const { return !is_sinkage() && !traction.prescribed; }
+};
+
+/// @param overrides "dotted.key=value", as of --set; keys "control.NAME" are firmware parameters
+/// @throws sim::ConfigError, UserError: one line that names file, key, value and bound
+RunSettings read_run_settings(const std::string& experiment,
+                              const std::vector<std::string>& overrides);
+
+}  // namespace hoof::tools

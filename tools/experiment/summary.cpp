@@ -1,0 +1,142 @@
+#include "tools/experiment/summary.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "firmware/protocol/protocol_hash.h"
+#include "sim/experiments/resolution.h"
+#include "sim/terrain/dem_terrain.h"
+#include "tools/experiment/bench.h"
+#include "tools/run/sha256.h"
+#include "tools/run/version.h"
+
+namespace hoof::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json by_joint(const RunSettings& run, const std::array<double, sim::kJointCount>& values) {
+  Json j = Json::object();
+  for (int i = 0; i < sim::kJointCount; ++i) {
+    if (run.drives[i]) j[sim::joint_name(sim::Joint(i))] = values[i];
+  }
+  return j;
+}
+
+Json by_bus(const std::array<double, bridge::kBusCount>& values) {
+  Json j = Json::object();
+  for (int bus = 0; bus < bridge::kBusCount; ++bus) {
+    // A SocketCAN interface does not tell its load.
+    j["can" + std::to_string(bus)] = values[bus] < 0 ? Json(nullptr) : Json(values[bus]);
+  }
+  return j;
+}
+
+Json resolution(const RunSettings& run, double sinkage_m) {
+  const Eigen::Vector2d print = footprint_m(run.foot, run.toe_rad());
+  const sim::Resolution r =
+      sim::assess_resolution(run.bed, run.foot.geometry, print.x(), print.y(), sinkage_m);
+  Json j = Json::object();
+  j["d50_m"] = run.bed.d50_m();
+  if (r.spine_pitch_over_d50) j["spine_pitch_over_d50"] = *r.spine_pitch_over_d50;
+  if (r.sole_width_over_d50) j["sole_width_over_d50"] = *r.sole_width_over_d50;
+  j["sinkage_over_d50"] = r.sinkage_over_d50;
+  j["box_length_over_foot"] = r.box_length_over_foot;
+  j["box_width_over_foot"] = r.box_width_over_foot;
+  j["claims_refused"] = r.claims_refused;
+  return j;
+}
+
+Json ground(const RunSettings& run, const sim::Experiment& experiment) {
+  Json j = Json::object();
+  j["terrain"] = run.on_grains ? "dem" : "rigid";
+  const auto* dem = dynamic_cast<const sim::DemTerrain*>(&experiment.plant().terrain());
+  if (dem == nullptr) return j;
+  const sim::BedHealth health = dem->bed().health();
+  j["bed"] = run.bed.name;
+  j["seed"] = run.seed;
+  j["grains"] = dem->bed().grain_count();
+  j["bed_steps"] = health.steps;
+  j["list_rebuilds"] = health.rebuilds;
+  j["deepest_overlap_ratio"] = health.deepest_boundary_ratio;
+  char hash[17];
+  std::snprintf(hash, sizeof hash, "%016llx",
+                static_cast<unsigned long long>(dem->bed().state_hash()));
+  j["state_hash"] = hash;
+  return j;
+}
+
+Json firmware_identity() {
+  char hash[11];
+  std::snprintf(hash, sizeof hash, "0x%08x", firmware::protocol::kProtocolHash);
+  // The host firmware is part of this program, so the program's bytes are the firmware's.
+  return {{"runs_on", "host"},
+          {"sha256", sha256_hex_of_file("/proc/self/exe")},
+          {"protocol_hash", hash}};
+}
+
+}  // namespace
+
+TractionPeaks find_peaks(const std::vector<ForceSample>& forces) {
+  TractionPeaks peaks;
+  const int n = int(forces.size()), half = TractionPeaks::kPeakWindow_ticks / 2;
+  for (int i = half; i + half < n; ++i) {
+    double fx = 0, fz = 0;
+    for (int k = i - half; k <= i + half; ++k) fx += forces[k].fx_N, fz += forces[k].fz_N;
+    fx /= TractionPeaks::kPeakWindow_ticks, fz /= TractionPeaks::kPeakWindow_ticks;
+    peaks.fz_peak_N = std::max(peaks.fz_peak_N, fz);
+    if (fx > peaks.fx_peak_N) {
+      peaks.fx_peak_N = fx;
+      peaks.fz_at_fx_peak_N = fz;
+      peaks.fx_peak_time_s = forces[i].time_s;
+    }
+  }
+  return peaks;
+}
+
+Json summarise(const RunSettings& run, const sim::Experiment& experiment,
+               const bridge::SessionResult& session, const Recorder& recorder) {
+  Json j;
+  j["experiment"] = run.kind;
+  j["foot"] = run.foot_name;
+  j["frames"] = session.frames;
+  j["ticks"] = session.ticks;
+  double depth = 0;
+  if (const auto* sinkage = dynamic_cast<const sim::Sinkage*>(&experiment)) {
+    depth = sinkage->max_depth_m();
+    j["load_N"] = run.sinkage.load_N;
+    j["max_depth_m"] = depth;
+    j["final_depth_m"] = sinkage->final_depth_m();
+    j["rested"] = sinkage->rested();
+  } else if (const auto* traction = dynamic_cast<const sim::Traction*>(&experiment)) {
+    depth = traction->max_depth_m();
+    const TractionPeaks peaks = find_peaks(recorder.forces());
+    j["max_depth_m"] = depth;
+    j["final_depth_m"] = std::max(0.0, -experiment.plant().rig().foot_position_m().z());
+    j["fx_peak_N"] = peaks.fx_peak_N;
+    j["fz_at_fx_peak_N"] = peaks.fz_at_fx_peak_N;
+    j["traction_coefficient"] = peaks.traction_coefficient();
+    j["fz_peak_N"] = peaks.fz_peak_N;
+    j["fx_peak_time_s"] = peaks.fx_peak_time_s;
+    j["ellipse_error_m"] = recorder.ellipse_error_m();
+  }
+  if (run.foot.has_toes) {
+    j["toe_command_rad"] = session.toe_command_rad;
+    j["toe_reached_rad"] = session.toe_reached_rad;
+    j["toe_deflection_rad"] = session.toe_deflection_rad;
+  }
+  j["torque_peak_Nm"] = by_joint(run, session.torque_peak_Nm);
+  j["gate_interventions"] = session.gate_interventions;
+  j["bus_load_ratio"] = by_bus(session.bus_load_ratio);
+  j["worst_bus_load_ratio"] = by_bus(session.worst_bus_load_ratio);
+  const sim::ExchangeEnergy energy = experiment.plant().exchange_energy();
+  j["exchange_work_J"] = energy.work_by_terrain_J;
+  j["exchange_error_J"] = energy.error_J();
+  j["ground"] = ground(run, experiment);
+  if (run.on_grains) j["resolution"] = resolution(run, depth);
+  j["firmware"] = firmware_identity();
+  j["version"] = version_json();
+  return j;
+}
+
+}  // namespace hoof::tools

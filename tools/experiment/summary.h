@@ -1,0 +1,35 @@
+// result.json of a sinkage or traction run.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "hil_bridge/session.h"
+#include "tools/experiment/recorder.h"
+#include "tools/experiment/run_settings.h"
+
+namespace hoof::tools {
+
+/// Peak of the propulsive force and the vertical force at that instant, both as moving means over
+/// kPeakWindow ticks: single grains that let go make spikes of a millisecond.
+struct TractionPeaks {
+  static constexpr int kPeakWindow_ticks = 11;
+
+  double fx_peak_N = 0;
+  double fz_at_fx_peak_N = 0;
+  double fz_peak_N = 0;
+  double fx_peak_time_s = 0;
+
+  /// The paper's: Fx at its peak over Fz at the same instant; 0 where nothing was touched.
+  double traction_coefficient() const {
+    return fz_at_fx_peak_N > 0 ? fx_peak_N / fz_at_fx_peak_N : 0;
+  }
+};
+
+TractionPeaks find_peaks(const std::vector<ForceSample>& forces);
+
+/// Holds nothing that differs between two runs of the same command: no wall time, no date.
+nlohmann::ordered_json summarise(const RunSettings& run, const sim::Experiment& experiment,
+                                 const bridge::SessionResult& session, const Recorder& recorder);
+
+}  // namespace hoof::tools
