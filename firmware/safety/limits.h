@@ -22,23 +22,43 @@ struct JointLimits {
   float stop_kd_Nm_s_rad;  // damping that replaces a command after a fault
 };
 
-/// Toe. Torque: the sand turns a toe with up to 1.5 Nm, a jam is called at 4; 10 leaves the 24 Nm
-/// of the drive unused, which gears and linkage would still bear. Rate: full torque in 3.3 ms, so a
-/// single wrong command cannot be a blow. Distance: half of what 10 Nm need at 40 Nm/rad, the
-/// softest setting of use. Travel: 0 to 40 degrees with room for a soft stop and for sand forcing
-/// the toes open. Speed: five times the toe's own 2 rad/s. Gains: end of the wire. Plausible: the
-/// drive's no-load class, 45 rad/s.
-///
-/// Hip and knee. Torque: 1.5 times the 235 Nm of the paper's fastest stance, so that no traction
-/// test is clipped. Rate: ceiling in 3.5 ms; a foot fall that changes joint speed by 0.5 rad/s in a
-/// tick moves the damping term by 75 Nm. Distance: 0.1 rad are 5 cm at the foot. Travel: the
-/// elliptical path needs hip 0.35 to 0.82 and knee -1.42 to -0.94 rad; beyond that what a leg that
-/// hangs straight (knee 0) or is folded needs. Speed: 2.7 times the 1.82 rad/s of the fastest path.
-inline constexpr control::PerJoint<JointLimits> kLimits{{
-    {10.0f, 3000.0f, 24.0f, 0.125f, -0.1f, 1.0f, 10.0f, 500.0f, 5.0f, 45.0f, 12.49f, 2.4f},
-    {350.0f, 100e3f, 400.0f, 0.1f, -1.2f, 1.6f, 5.0f, 20000.0f, 500.0f, 20.0f, 3.19f, 200.0f},
-    {350.0f, 100e3f, 400.0f, 0.1f, -2.7f, 0.05f, 5.0f, 20000.0f, 500.0f, 20.0f, 3.19f, 200.0f},
-}};
+inline constexpr JointLimits kToeLimits{
+    .torque_Nm = 10.0f,  // sand turns a toe with 1.5 Nm, a jam is called at 4; the drive has 24
+    .torque_rate_Nm_s = 3000.0f,  // ceiling in 3.3 ms: no blow from one wrong command
+    .feed_forward_Nm = 24.0f,     // end of the wire's codes
+    .distance_rad = 0.125f,   // at 250 Nm/rad the torque binds at 0.04; this is for softer settings
+    .lower_rad = -0.1f,       // closed end stop at 0, found with an error
+    .upper_rad = 1.0f,        // 40 degrees, and room for sand that forces the toes open
+    .velocity_rad_s = 10.0f,  // five times the opening speed
+    .kp_Nm_rad = 500.0f,      // end of the wire's codes
+    .kd_Nm_s_rad = 5.0f,      // end of the wire's codes
+    .plausible_rad_s = 45.0f,    // end of the wire's codes, beyond the drive's no-load speed
+    .end_of_range_rad = 12.49f,  // end of the wire's codes less 26 of them
+    .stop_kd_Nm_s_rad = 2.4f,    // damping ratio 0.7 at the default stiffness
+};
+
+/// The travel differs between hip and knee; everything else is common.
+constexpr JointLimits leg_limits(float lower_rad, float upper_rad) {
+  return {
+      .torque_Nm = 350.0f,         // 1.5 times the 235 Nm of the paper's fastest stance: clips none
+      .torque_rate_Nm_s = 100e3f,  // ceiling in 3.5 ms; a foot fall takes up to 75 a tick
+      .feed_forward_Nm = 400.0f,   // end of the wire's codes
+      .distance_rad = 0.1f,        // 5 cm at the foot
+      .lower_rad = lower_rad,
+      .upper_rad = upper_rad,
+      .velocity_rad_s = 5.0f,      // 2.7 times the 1.82 rad/s of the fastest path
+      .kp_Nm_rad = 20000.0f,       // end of the wire's codes
+      .kd_Nm_s_rad = 500.0f,       // end of the wire's codes
+      .plausible_rad_s = 20.0f,    // end of the wire's codes
+      .end_of_range_rad = 3.19f,   // end of the wire's codes less 100 of them
+      .stop_kd_Nm_s_rad = 200.0f,  // 200 Nm of load sink at 1 rad/s
+  };
+}
+
+/// The stance path needs hip 0.35 to 0.82 and knee -1.42 to -0.94 rad; beyond that what a leg that
+/// hangs straight (knee 0) or is folded needs.
+inline constexpr control::PerJoint<JointLimits> kLimits{kToeLimits, leg_limits(-1.2f, 1.6f),
+                                                        leg_limits(-2.7f, 0.05f)};
 
 /// Beyond its travel by this much a joint is not where it can be. 3 degrees.
 inline constexpr float kTravelMargin_rad = 0.05f;
