@@ -316,8 +316,11 @@ class ExtremalSide {
     }
     if (!(y > branch.y_end)) return false;
     const Real d = shape.ap - shape.aq;
+    const Real y_start = y;
     const auto shape_at = [&](Real at_d) {
-      return early_shape(branch, positive_part(branch.k / at_d - at_d) / 2);
+      // Both k and d may be nothing but rounding, when a single ramp is almost all there is.
+      const Real at_y = at_d > 0 ? (branch.k / at_d - at_d) / 2 : y_start;
+      return early_shape(branch, minimum(maximum(at_y, branch.y_end), y_start));
     };
     const Real discriminant = 4 * sum_ * sum_ - 3 * k_ * k_;
     const Shape<Real> end = early_shape(branch, branch.y_end);

@@ -123,7 +123,8 @@ class Planner {
     // Beyond this, and beyond 32 bits (a 64-bit conversion is software on the target), a step is
     // lost in the rounding of the duration.
     if (!(ratio < minimum(Real(2147483000), 1 / (8 * kEpsilon<Real>)))) return t;
-    const Real below = ratio - minimum(kRounding<Real> * ratio, Real(0.25));
+    // A quarter of what the search accepts, lest it raise a step again that was rounded down to.
+    const Real below = ratio - minimum(kRounding<Real> / 4 * ratio, Real(0.25));
     const Real whole = static_cast<Real>(static_cast<std::int32_t>(below));
     return (whole < below ? whole + 1 : whole) * step;
   }
