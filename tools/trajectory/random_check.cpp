@@ -168,19 +168,14 @@ class RandomChecker {
 
   // Looks for a feasible duration clearly below the one found.
   bool shorter_is_feasible(const Input& in, int i, double minimum_s) {
-    const AxisProblem axis{in.target_position[i] - in.position[i],
-                           in.velocity[i],
-                           in.acceleration[i],
-                           in.target_velocity[i],
-                           in.target_acceleration[i],
-                           limits_of(in, i)};
+    const AxisProblem axis = axis_of(in, i);
     if (minimum_s == 0) return false;
     constexpr int kSamples = 100;
     // The slow check resolves its own lines to about 1e-15; a feasible duration must show itself.
     constexpr double kSlack = -1e-12;
     for (int k = 0; k < kSamples; ++k) {
       const double t = minimum_s * (k + random_.uniform(0, 1)) / kSamples * (1 - 1e-6);
-      if (slowly_feasible(axis, t, kSlack)) return true;
+      if (slowly_feasible(axis, t, relative_slack(axis, t, kSlack))) return true;
     }
     return false;
   }

@@ -128,22 +128,26 @@ class SlowAxis {
 
 }  // namespace
 
-bool slowly_feasible(const AxisProblem& axis, double duration_s, double slack) {
+EndSlack relative_slack(const AxisProblem& axis, double duration_s, double relative) {
+  const double a_max = std::max(axis.limits.max_acceleration, -axis.limits.min_acceleration);
+  const double speed = std::fabs(axis.velocity) + std::fabs(axis.target_velocity);
+  const double velocity = relative * (speed + duration_s * a_max);
+  return {velocity, velocity * duration_s};
+}
+
+bool slowly_feasible(const AxisProblem& axis, double duration_s, const EndSlack& slack) {
   const Wide t = duration_s;
   const Wide ramp = std::fabs(axis.target_acceleration - axis.acceleration) / axis.limits.max_jerk;
-  if (t < ramp * (1 - slack)) return false;
+  if (t < ramp - std::fabs(slack.velocity) / axis.limits.max_acceleration) return false;
   const SlowAxis upper(axis, false);
   const SlowAxis lower(axis, true);
   const Wide gain = axis.target_velocity - axis.velocity;
-  const Wide v_slack =
-      slack * (std::fabs(axis.velocity) + std::fabs(axis.target_velocity) +
-               t * std::max(axis.limits.max_acceleration, -axis.limits.min_acceleration));
-  if (gain > upper.largest_gain(t) + v_slack || gain < upper.smallest_gain(t) - v_slack) {
+  if (gain > upper.largest_gain(t) + slack.velocity ||
+      gain < upper.smallest_gain(t) - slack.velocity) {
     return false;
   }
-  const Wide p_slack = v_slack * t;
-  return axis.displacement <= upper.largest_displacement(t) + p_slack &&
-         axis.displacement >= -lower.largest_displacement(t) - p_slack;
+  return axis.displacement <= upper.largest_displacement(t) + slack.position &&
+         axis.displacement >= -lower.largest_displacement(t) - slack.position;
 }
 
 }  // namespace hoof::tools::trajectory

@@ -16,8 +16,16 @@ namespace hoof::tools::trajectory {
 
 using AxisProblem = firmware::trajectory::AxisProblem<double>;
 
-// Start and target inside the limits, jerk limit finite. Feasible up to `slack` (relative, on the
-// velocity gain and the displacement).
-bool slowly_feasible(const AxisProblem& axis, double duration_s, double slack);
+// What the end state may miss by (negative: must be clear of the border by).
+struct EndSlack {
+  double velocity;
+  double position;
+};
+
+// `relative` to the size of the velocities and of the way on `axis` in `duration_s`.
+EndSlack relative_slack(const AxisProblem& axis, double duration_s, double relative);
+
+// For a start and target inside the limits, and a finite jerk limit.
+bool slowly_feasible(const AxisProblem& axis, double duration_s, const EndSlack& slack);
 
 }  // namespace hoof::tools::trajectory

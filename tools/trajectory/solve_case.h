@@ -36,6 +36,15 @@ InputOf<To> converted(const InputOf<From>& from) {
   return to;
 }
 
+inline firmware::trajectory::AxisProblem<double> axis_of(const Input& in, int i) {
+  return {in.target_position[i] - in.position[i],
+          in.velocity[i],
+          in.acceleration[i],
+          in.target_velocity[i],
+          in.target_acceleration[i],
+          limits_of(in, i)};
+}
+
 struct Solution {
   firmware::trajectory::Result result{};
   double duration_s = 0;
