@@ -87,6 +87,30 @@ TEST_CASE("a blocked interval is jumped, not entered") {
   CHECK(duration_of(gap) > 1);
 }
 
+TEST_CASE("a target that is only passed is taken in passing") {
+  // In units with J = a_max = 1: ending with af = 0.9 at a low speed, the largest displacement
+  // first grows with the duration (at dq/dtheta = 0.06), has a maximum some 3e-4 further, and falls
+  // again while the acceleration is held. The shortest velocity change ends at the start of that
+  // hill.
+  for (const double sign : {1.0, -1.0}) {
+    Input1 input = rest_to_rest(0, 2, 1, 1);
+    input.velocity[0] = sign * -0.8;
+    input.target_velocity[0] = sign * 0.105;
+    input.target_acceleration[0] = sign * 0.9;
+    Input1 change = input;
+    change.interface = Interface::kVelocity;
+    Generator<double, 1> generator(0.001);
+    REQUIRE(generator.plan(change) == Result::kWorking);
+    const double shortest_s = generator.duration_s();
+    input.target_position[0] = generator.profile(0).end().position + sign * 1e-4;
+    const double duration_s = duration_of(input);
+    CHECK(duration_s > shortest_s);
+    CHECK(duration_s < shortest_s + 1e-4 / 0.03);  // the mean growth up to there is above 0.03
+    input.target_position[0] += sign * 1e-3;       // beyond the hill: far later
+    CHECK(duration_of(input) > shortest_s + 0.1);
+  }
+}
+
 TEST_CASE("the velocity interface ignores position and velocity limits") {
   for (const double sign : {1.0, -1.0}) {
     Input1 input = rest_to_rest(1, 0.1, 4, 20);
