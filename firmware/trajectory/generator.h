@@ -9,7 +9,10 @@
 //
 // On a slow processor set_work_per_update(n) spreads a plan: at most n units (one unit: one axis
 // searched, tested or built) are done per update() while the old profile goes on, and the new one
-// starts, already complete, at the tick it was planned for.
+// starts, already complete, at the tick it was planned for. A unit is 1,100 instructions in the
+// mean and 2,150 for the longest kind, building an axis (x86, -Os, float, callgrind over 2,000
+// plans of three moving axes); at 1.5 cycles each, divisions and roots included, and 168 MHz, 20
+// us.
 #pragma once
 
 #include "firmware/trajectory/input.h"
