@@ -14,7 +14,7 @@ namespace hoof::tools::trajectory {
 struct Audit {
   // Largest miss of a piece against the state the next one starts from, and of the last piece
   // against the target; in position, velocity or acceleration, relative to the largest magnitude on
-  // the way where that is above 1. Nothing else can be wrong with the end state.
+  // the way where that is above 1; and of the pieces' time against the duration, likewise.
   double end_error = 0;
   // Beyond velocity, acceleration or jerk limits, relative where the limit is above 1. The
   // acceleration counts from the end of the brake on, the velocity from when it is inside after it.
@@ -44,8 +44,10 @@ class Auditor {
     audit_ = {};
     armed_ = false;
     find_scales(profile, displacement);
+    long double elapsed_s = 0;
     for (int i = 0; i < profile.pieces(); ++i) {
       const auto& piece = profile.piece(i);
+      elapsed_s += piece.duration_s;
       const Motion end = follow(piece, piece.begin_s >= profile.brake_s(), profile.brake_s() == 0);
       if (i + 1 < profile.pieces()) {
         const auto& next = profile.piece(i + 1).state;
@@ -54,6 +56,7 @@ class Auditor {
         compare(end, displacement, end_velocity, end_acceleration);
       }
     }
+    miss(elapsed_s - profile.duration_s(), std::max<long double>(1, elapsed_s));
     return audit_;
   }
 
@@ -92,13 +95,14 @@ class Auditor {
   }
 
   void compare(const Motion& end, long double p, long double v, long double a) {
-    const auto miss = [&](long double difference, long double scale) {
-      audit_.end_error =
-          std::max(audit_.end_error, static_cast<double>(std::fabs(difference) / scale));
-    };
     miss(end.p - p, reach_);
     miss(end.v - v, speed_);
     if (jerk_limited_) miss(end.a - a, push_);  // otherwise it jumps by design
+  }
+
+  void miss(long double difference, long double scale) {
+    audit_.end_error =
+        std::max(audit_.end_error, static_cast<double>(std::fabs(difference) / scale));
   }
 
   void beyond(long double value, long double bound) {
