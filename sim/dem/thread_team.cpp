@@ -8,7 +8,7 @@ ThreadTeam::ThreadTeam(int size) : size_(std::max(1, size)) {
   // Waiting by spinning costs nothing while every member has a core of its own; with more members
   // than cores it would keep the one that works off its core.
   const int cores = int(std::thread::hardware_concurrency());
-  spins_ = size_ <= cores ? 20000 : 0;
+  spins_ = size_ <= cores ? 4000 : 0;
   for (int member = 1; member < size_; ++member) {
     threads_.emplace_back([this, member] { work(member); });
   }

@@ -101,7 +101,9 @@ class Run {
         run_.bus == "in_process" ? bridge::in_process_wires(log) : bridge::socketcan_wires(run_.bus, log);
     const auto observe = [&](const bridge::TickRecord& record) {
       recorder_->tick(record);
-      progress.update(experiment_->progress(), moment(record.plant));
+      if (record.plant.phase != sim::Phase::kFinished) {
+        progress.update(experiment_->progress(), moment(record.plant));
+      }
       return !stop_.requested();
     };
     try {
