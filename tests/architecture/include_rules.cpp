@@ -20,8 +20,11 @@ struct RoomRule {
 const std::vector<RoomRule> kRooms = {
     {"firmware/trajectory/", {"firmware/trajectory/"}},
     {"firmware/control/", {"firmware/control/", "firmware/trajectory/"}},
-    {"firmware/safety/", {"firmware/safety/"}},
-    {"firmware/protocol/", {"firmware/protocol/", "hal/can_frame.h"}},
+    // The gate judges what the controller wishes, in the controller's own types.
+    {"firmware/safety/",
+     {"firmware/safety/", "firmware/control/types.h", "firmware/control/math.h"}},
+    // Bus load is reckoned with the same formula for the bits of a frame as the in-process bus.
+    {"firmware/protocol/", {"firmware/protocol/", "hal/can_frame.h", "hal/can_timing.h"}},
     {"firmware/app/",
      {"firmware/app/", "firmware/control/", "firmware/safety/", "firmware/protocol/",
       "firmware/trajectory/", "hal/*"}},

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "firmware/app/control_loop.h"
+#include "firmware/app/received_ids.h"
 #include "firmware/board/host/options.h"
 #include "firmware/board/host/scaled_clock.h"
-#include "firmware/protocol/dictionary.h"
 #include "hal/socketcan/socketcan_bus.h"
 
 namespace {
@@ -45,19 +45,18 @@ void run(app::ControlLoop& loop, hoof::hal::SocketCanBus& bus0) {
 
 /// Only what the dictionary says is for the foot on that bus: with one interface for both buses the
 /// two connections must not see each other's frames.
-hoof::hal::SocketCanSettings connection(const std::string& interface, protocol::BusMask bus) {
+hoof::hal::SocketCanSettings connection(const std::string& interface, std::size_t bus_index) {
   hoof::hal::SocketCanSettings settings;
   settings.interface = interface;
-  for (const protocol::MessageSpec& message : protocol::kMessages) {
-    if (message.receiver != protocol::Node::kFoot || (message.buses & bus) == 0) continue;
-    settings.filters.push_back({.id = message.id, .mask = 0x7FF});
-  }
+  app::for_each_received_id(bus_index, [&settings](std::uint32_t id) {
+    settings.filters.push_back({.id = id, .mask = 0x7FF});
+  });
   return settings;
 }
 
 int start(const board::Options& options) {
-  hoof::hal::SocketCanBus bus0(connection(options.bus0, protocol::kBus0));
-  hoof::hal::SocketCanBus bus1(connection(options.bus1, protocol::kBus1));
+  hoof::hal::SocketCanBus bus0(connection(options.bus0, 0));
+  hoof::hal::SocketCanBus bus1(connection(options.bus1, 1));
   const board::ScaledClock clock(options.slow_down);
   app::ControlLoop loop({&bus0, &bus1}, clock, options.parameters);
   std::signal(SIGINT, on_signal);

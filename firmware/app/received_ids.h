@@ -1,0 +1,20 @@
+// What the foot listens to on each bus, for the acceptance filters of a board.
+#pragma once
+
+#include <cstddef>
+
+#include "firmware/protocol/dictionary.h"
+
+namespace hoof::firmware::app {
+
+/// Calls visit(identifier) for every frame that the dictionary addresses to the foot on bus 0 or 1.
+template <typename Visit>
+constexpr void for_each_received_id(std::size_t bus_index, Visit&& visit) {
+  const protocol::BusMask bus = bus_index == 0 ? protocol::kBus0 : protocol::kBus1;
+  for (const protocol::MessageSpec& message : protocol::kMessages) {
+    const bool for_us = message.receiver == protocol::Node::kFoot && (message.buses & bus) != 0;
+    if (for_us) visit(message.id);
+  }
+}
+
+}  // namespace hoof::firmware::app
