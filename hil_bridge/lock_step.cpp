@@ -13,7 +13,8 @@ using firmware::protocol::Drive;
 
 /// Toe on bus 0, hip and knee on bus 1, as the dictionary has it.
 int bus_of(sim::Joint joint) {
-  return firmware::protocol::command_spec(Drive(int(joint))).buses == firmware::protocol::kBus0 ? 0 : 1;
+  return firmware::protocol::command_spec(Drive(int(joint))).buses == firmware::protocol::kBus0 ? 0
+                                                                                                : 1;
 }
 
 std::int64_t whole_exchange_ns(double exchange_s) {
@@ -67,6 +68,10 @@ void LockStep::exchange() {
     const double torque = experiment_.plant().joint_torque_Nm(sim::Joint(j));
     torques_.mean_Nm[j] += torque * double(exchange_ns_) / double(kTick_ns);
     torques_.peak_Nm[j] = std::max(torques_.peak_Nm[j], std::abs(torque));
+    const sim::Drive* drive = experiment_.plant().drive(sim::Joint(j));
+    if (drive && std::abs(drive->motor_torque_Nm()) >= drive->settings().torque_limit_Nm) {
+      torques_.limited_s[j] += double(exchange_ns_) * 1e-9;
+    }
   }
   clock_.advance_to(clock_.now_ns() + exchange_ns_);
   wires_.advance_to(clock_.now_ns());

@@ -18,8 +18,9 @@ namespace hoof::bridge {
 
 /// Torques at the joint and the drives' orders, as seen over one tick.
 struct TickTorques {
-  std::array<double, sim::kJointCount> mean_Nm{};  // gear on joint
-  std::array<double, sim::kJointCount> peak_Nm{};  // largest magnitude of any exchange interval
+  std::array<double, sim::kJointCount> mean_Nm{};    // gear on joint
+  std::array<double, sim::kJointCount> peak_Nm{};    // largest magnitude of any exchange interval
+  std::array<double, sim::kJointCount> limited_s{};  // time for which the drive's own limit clipped
 };
 
 class LockStep {

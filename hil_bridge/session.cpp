@@ -36,6 +36,7 @@ class Session {
     if (record.plant.phase == sim::Phase::kLoaded) note_deflection(record.plant);
     for (int j = 0; j < sim::kJointCount; ++j) {
       result_.torque_peak_Nm[j] = std::max(result_.torque_peak_Nm[j], record.torques.peak_Nm[j]);
+      result_.torque_limited_s[j] += record.torques.limited_s[j];
     }
     if (const std::string& trouble = lock_step_.supervisor().trouble(); !trouble.empty()) {
       throw std::runtime_error("at " + std::to_string(record.plant.time_s) + " s: " + trouble);

@@ -35,6 +35,7 @@ struct SessionResult {
   double toe_reached_rad = 0;     // true mean opening when the test went on
   double toe_deflection_rad = 0;  // largest |true mean opening - command| under load
   std::array<double, sim::kJointCount> torque_peak_Nm{};
+  std::array<double, sim::kJointCount> torque_limited_s{};  // time at the drive's own limit
   std::uint32_t gate_interventions = 0;
   std::array<double, kBusCount> bus_load_ratio{};
   std::array<double, kBusCount> worst_bus_load_ratio{};

@@ -40,7 +40,10 @@ template <typename Real>
 struct PairLaw {
   Real E_eff_Pa;
   Real G_eff_Pa;
-  Real damping;  // -2 sqrt(5/6) beta, positive
+  // -2 sqrt(5/6) beta sqrt(S m*) with S_n = 2 E* a and S_t = 8 G* a, a the contact radius: both
+  // dashpots are a constant times sqrt(a m*), one root instead of two.
+  Real dashpot_n;  // -2 sqrt(5/6) beta sqrt(2 E*)
+  Real dashpot_t;  // -2 sqrt(5/6) beta sqrt(8 G*)
   Real mu_s;
   Real mu_r;
 };
@@ -64,6 +67,13 @@ HOOF_INLINE T lane_select(Mask mask, T a, T b) {
 template <typename T>
 HOOF_INLINE T lane_abs(T a) {
   return lane_select(a < T{}, T{} - a, a);
+}
+/// True where any lane of the mask is.
+template <typename Mask>
+bool any_lane(Mask mask);
+template <>
+HOOF_INLINE bool any_lane<bool>(bool mask) {
+  return mask;
 }
 
 /// Geometry and motion of one touching pair, seen from grain i.
@@ -90,27 +100,30 @@ template <typename T, typename Real>
 HOOF_INLINE TouchForce<T> touch_force(const PairLaw<Real>& law, CoulombCap cap, Real dt_s,
                                       const Touch<T>& c, Vec3<T>& xi_t) {
   const T a = lane_sqrt(c.R_eff * c.delta);  // contact radius
-  const T S_n = Real(2) * law.E_eff_Pa * a;
   const T S_t = Real(8) * law.G_eff_Pa * a;
+  const T root = lane_sqrt(a * c.m_eff);
 
   const T v_n = dot(c.v_rel, c.n);
   const T F_n_elastic = Real(4.0 / 3.0) * law.E_eff_Pa * a * c.delta;
-  const T F_n = F_n_elastic - law.damping * lane_sqrt(S_n * c.m_eff) * v_n;
+  const T F_n = F_n_elastic - law.dashpot_n * root * v_n;
 
   const Vec3<T> v_t = c.v_rel - v_n * c.n - cross(c.w_arm, c.n);
   const T dt = T{} + dt_s;
   xi_t = xi_t + dt * v_t;
   xi_t = xi_t - dot(xi_t, c.n) * c.n;  // turn the spring with the contact plane
 
-  const T spring = S_t * lane_sqrt(dot(xi_t, xi_t));
   const T limit = law.mu_s * lane_abs(cap == CoulombCap::kTotalNormal ? F_n : F_n_elastic);
-  const auto slips = spring > limit;
-  // Sliding: the spring is cut back to the limit and the dashpot is off. Sticking: spring +
-  // dashpot.
-  const T keep =
-      lane_select(slips, limit / lane_select(slips, spring, T{} + Real(1)), T{} + Real(1));
-  xi_t = keep * xi_t;
-  const T dashpot = lane_select(slips, T{}, law.damping * lane_sqrt(S_t * c.m_eff));
+  const T spring2 = S_t * S_t * dot(xi_t, xi_t);
+  const auto slips = spring2 > limit * limit;
+  // Sticking: spring + dashpot. Sliding: the spring is cut back to the limit and the dashpot is
+  // off.
+  T dashpot = law.dashpot_t * root;
+  if (any_lane(slips)) {
+    const T one = T{} + Real(1);
+    const T keep = lane_select(slips, limit / lane_sqrt(lane_select(slips, spring2, one)), one);
+    xi_t = keep * xi_t;
+    dashpot = lane_select(slips, T{}, dashpot);
+  }
   const Vec3<T> f_t = (T{} - S_t) * xi_t - dashpot * v_t;
   return {F_n * c.n, f_t, F_n_elastic};
 }

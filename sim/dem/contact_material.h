@@ -19,12 +19,13 @@ struct PairCoefficients {
 };
 
 /// The constants of contact_law.h for materials a and b, computed in double.
-PairLaw<double> make_pair_law(const ElasticMaterial& a, const ElasticMaterial& b, const PairCoefficients& pair);
+PairLaw<double> make_pair_law(const ElasticMaterial& a, const ElasticMaterial& b,
+                              const PairCoefficients& pair);
 
 template <typename Real>
 PairLaw<Real> cast_pair_law(const PairLaw<double>& law) {
-  return {Real(law.E_eff_Pa), Real(law.G_eff_Pa), Real(law.damping), Real(law.mu_s),
-          Real(law.mu_r)};
+  return {Real(law.E_eff_Pa),  Real(law.G_eff_Pa), Real(law.dashpot_n),
+          Real(law.dashpot_t), Real(law.mu_s),     Real(law.mu_r)};
 }
 
 /// Rayleigh time of a grain, s: the usual bound of a DEM step, pi R sqrt(rho/G) / (0.1631 nu +

@@ -109,7 +109,8 @@ BedHealth SandBed::health() const {
   return impl_->health;
 }
 
-void SandBed::set_contact_pairs(const PairCoefficients& grain_grain, const PairCoefficients& grain_wall) {
+void SandBed::set_contact_pairs(const PairCoefficients& grain_grain,
+                                const PairCoefficients& grain_wall) {
   require_pair(grain_grain, "grain_grain");
   require_pair(grain_wall, "grain_wall");
   impl_->settings.grain_grain = grain_grain;

@@ -111,6 +111,19 @@ HOOF_INLINE std::uint32_t mask_bits(Lanes<double>::Mask m) {
 }
 #endif
 
+}  // namespace HOOF_ISA
+
+template <>
+HOOF_INLINE bool any_lane<HOOF_ISA::Lanes<float>::Mask>(HOOF_ISA::Lanes<float>::Mask mask) {
+  return HOOF_ISA::mask_bits(mask) != 0;
+}
+template <>
+HOOF_INLINE bool any_lane<HOOF_ISA::Lanes<double>::Mask>(HOOF_ISA::Lanes<double>::Mask mask) {
+  return HOOF_ISA::mask_bits(mask) != 0;
+}
+
+namespace HOOF_ISA {
+
 // Four words of each of kCount records <-> four vectors, by 4 x 4 transposes of 128-bit pieces:
 // piece p of vector r belongs to lane 4 p + r. Moves bits only.
 #if HOOF_VECTOR_BYTES == 64
@@ -356,8 +369,11 @@ HOOF_INLINE void add_slot(const StepArguments<Real>& a, EllSlot<Real>& slot,
   Touch<V> c;
   c.delta = lane_select(touches, reach - dist, V{});
   c.n = (one / dist) * d;
-  c.R_eff = self.radius * other.radius / reach;
-  c.m_eff = self.mass * other.mass / (self.mass + other.mass);
+  // One division for both: R* = r_i r_j / (r_i + r_j), m* likewise.
+  const V masses = self.mass + other.mass;
+  const V per_sums = one / (reach * masses);
+  c.R_eff = self.radius * other.radius * (masses * per_sums);
+  c.m_eff = self.mass * other.mass * (reach * per_sums);
   c.v_rel = self.v - other.v;
   const V c_i = self.radius - Real(0.5) * c.delta;
   const V c_j = other.radius - Real(0.5) * c.delta;

@@ -97,8 +97,9 @@ class Run {
   bridge::SessionResult drive() {
     ProgressLine progress(run_.kind, style_, std::cerr);
     const auto log = [this](int bus, const hal::CanFrame& frame) { recorder_->frame(bus, frame); };
-    const std::unique_ptr<bridge::Wires> wires =
-        run_.bus == "in_process" ? bridge::in_process_wires(log) : bridge::socketcan_wires(run_.bus, log);
+    const std::unique_ptr<bridge::Wires> wires = run_.bus == "in_process"
+                                                     ? bridge::in_process_wires(log)
+                                                     : bridge::socketcan_wires(run_.bus, log);
     const auto observe = [&](const bridge::TickRecord& record) {
       recorder_->tick(record);
       if (record.plant.phase != sim::Phase::kFinished) {
@@ -144,6 +145,12 @@ class Run {
     if (run_.foot.has_toes) {
       std::printf("toes: ordered %.2f deg, reached %.2f, moved by the sand at most %.2f\n",
                   deg("toe_command_rad"), deg("toe_reached_rad"), deg("toe_deflection_rad"));
+    }
+    for (const auto& [joint, limited_s] : r.at("torque_limited_s").items()) {
+      if (limited_s.get<double>() > 0) {
+        std::printf("%s drive: at its torque limit for %.2f s\n", joint.c_str(),
+                    limited_s.get<double>());
+      }
     }
     if (r.contains("resolution")) {
       for (const auto& claim : r["resolution"]["claims_refused"]) {

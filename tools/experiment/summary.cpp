@@ -126,6 +126,7 @@ Json summarise(const RunSettings& run, const sim::Experiment& experiment,
     j["toe_deflection_rad"] = session.toe_deflection_rad;
   }
   j["torque_peak_Nm"] = by_joint(run, session.torque_peak_Nm);
+  j["torque_limited_s"] = by_joint(run, session.torque_limited_s);
   j["gate_interventions"] = session.gate_interventions;
   j["bus_load_ratio"] = by_bus(session.bus_load_ratio);
   j["worst_bus_load_ratio"] = by_bus(session.worst_bus_load_ratio);
