@@ -39,16 +39,17 @@ void Supervisor::order(Order what, double toe_angle_rad, double frequency_Hz) {
 void Supervisor::poll(std::int64_t now_ns) {
   hal::CanFrame frame;
   while (bus_.receive(frame)) take(frame);
-  if (order_ && !accepted_ && trouble_.empty() && heartbeat_ &&
-      (!sent_ || now_ns - sent_ns_ >= kRepeat_ns)) {
-    send(now_ns);
-  }
+  if (!order_ || accepted_ || !trouble_.empty() || !heartbeat_) return;
+  // One frame at a time: two with the same counter would have the same answer.
+  if (!awaiting_ || now_ns - sent_ns_ >= kRepeat_ns) send(now_ns);
 }
 
 void Supervisor::send(std::int64_t now_ns) {
   order_->counter = counter_;
   if (bus_.send(encode(*order_)) != hal::SendResult::kQueued) return;  // again at the next poll
   sent_ = true;
+  awaiting_ = true;
+  sent_counter_ = counter_;
   sent_ns_ = now_ns;
 }
 
@@ -65,12 +66,12 @@ void Supervisor::take(const hal::CanFrame& frame) {
 void Supervisor::take_acknowledge(const OrderAcknowledge& answer) {
   if (answer.supervisor_id != id_) return;
   counter_ = answer.expected_counter;
-  if (!order_ || accepted_ || !sent_ || answer.counter != order_->counter) return;
+  if (answer.counter != sent_counter_) return;
+  awaiting_ = false;
+  if (!order_ || accepted_ || !sent_) return;
   if (answer.result == OrderResult::kAccepted) {
     accepted_ = true;
-  } else if (answer.result == OrderResult::kBadCounter) {
-    sent_ = false;  // now with the counter that the foot expects
-  } else {
+  } else if (answer.result != OrderResult::kBadCounter) {  // that one goes out again, mended
     trouble_ = "the order '" + name_of(kOrderNames, std::uint32_t(order_->order)) +
                "' was refused: " + name_of(kOrderResultNames, std::uint32_t(answer.result)) +
                " (mode " + name_of(kModeNames, std::uint32_t(answer.mode)) + ")";

@@ -44,8 +44,10 @@ class Supervisor {
   std::optional<firmware::protocol::SupervisorOrder> order_;
   std::uint8_t counter_ = 0;
   bool accepted_ = false;
+  bool sent_ = false;      // the order in force, at least once
+  bool awaiting_ = false;  // the answer to the frame sent last
+  std::uint8_t sent_counter_ = 0;
   std::int64_t sent_ns_ = 0;
-  bool sent_ = false;
   std::optional<firmware::protocol::Heartbeat> heartbeat_;
   std::optional<firmware::protocol::FootToe> toe_;
   std::string trouble_;

@@ -1,1 +1,0 @@
-hoof_add_test(hoof_test_drive_node SOURCES drive_node_test.cpp LIBS hoof_bridge)
