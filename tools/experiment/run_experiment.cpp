@@ -5,8 +5,10 @@
 #include <iostream>
 
 #include "hil_bridge/session.h"
+#include "sim/terrain/dem_terrain.h"
 #include "tools/experiment/bench.h"
 #include "tools/experiment/recorder.h"
+#include "tools/experiment/section_view.h"
 #include "tools/experiment/summary.h"
 #include "tools/report/report.h"
 #include "tools/run/errors.h"
@@ -54,11 +56,19 @@ class Run {
     write_file(folder_.file("settings.toml"), run_.tree.to_toml());
     experiment_ = build();
     const double built_s = seconds_since(start);
+    const sim::DemTerrain* sand = dynamic_cast<sim::DemTerrain*>(&experiment_->plant().terrain());
+    sim::BedState untouched;
+    if (sand != nullptr) untouched = sand->bed().state();
     recorder_ = std::make_unique<Recorder>(run_, folder_.working_path(), output_.live);
     const bridge::SessionResult session = drive();
     recorder_->close();
     const nlohmann::ordered_json result = summarise(run_, *experiment_, session, *recorder_);
     write_result_json(folder_.file("result.json"), result);
+    if (sand != nullptr) {
+      write_file(folder_.file("section.svg"),
+                 draw_section(untouched, sand->bed().state(), experiment_->plant().rig(),
+                              run_.bed.d50_m(), cut_y_m()));
+    }
     // Apart from the results, which are the same every time: how long it took here and now.
     write_result_json(folder_.file("timing.json"), {{"build_s", built_s},
                                                     {"run_s", seconds_since(start) - built_s},
@@ -71,6 +81,12 @@ class Run {
   }
 
  private:
+  /// Through a row of spines, where there are spines.
+  double cut_y_m() const {
+    const sim::FootGeometry& g = run_.foot.geometry;
+    return g.has_spines ? g.spines.middle_row_offset_m : 0;
+  }
+
   std::unique_ptr<sim::Experiment> build() {
     ProgressLine progress("settling", style_, std::cerr);
     const auto show = [&](double share) {

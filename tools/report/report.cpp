@@ -144,6 +144,13 @@ std::string table_of(const Json& values) {
   return html + "</table>\n";
 }
 
+std::string drawing_section(const RunData& data) {
+  if (data.section_svg.empty()) return "";
+  return "<h2>The foot in the sand</h2>\n<p class=\"note\">At the end of the run, cut lengthwise; "
+         "the robot walks to the right.</p>\n<figure>" +
+         data.section_svg + "</figure>\n";
+}
+
 std::string files_section(const RunData& data) {
   std::string html = "<h2>Raw files of this run</h2>\n<table>";
   for (const RunFile& file : data.files) {
@@ -185,7 +192,8 @@ std::string make_report(const std::filesystem::path& run_folder) {
   html += assets::uPlot_min_css;
   html += assets::page_css;
   html += "</style>\n</head>\n<body>\n" + element("h1", title(data)) + "\n<div class=\"columns\">";
-  html += headline_section(data) + resolution_section(data) + "</div>\n" + plots_section(groups);
+  html += headline_section(data) + resolution_section(data) + "</div>\n" + drawing_section(data) +
+          plots_section(groups);
   html += results_sections(data);
   html += script(json_for_script(json_samples(data.samples, groups)),
                  " type=\"application/json\" id=\"samples\"");

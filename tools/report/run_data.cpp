@@ -62,6 +62,9 @@ RunData read_run_data(const fs::path& run_folder) {
   if (time == nullptr || time->numbers.empty()) {
     throw UserError((run_folder / "samples.csv").string() + ": no samples in a column time_s");
   }
+  if (fs::exists(run_folder / "section.svg")) {
+    data.section_svg = read_file(run_folder / "section.svg");
+  }
   data.files = list_files(run_folder);
   return data;
 }
