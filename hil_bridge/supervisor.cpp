@@ -34,12 +34,14 @@ void Supervisor::order(Order what, double toe_angle_rad, double frequency_Hz) {
   order_ = SupervisorOrder{id_, what, float(toe_angle_rad), float(frequency_Hz), counter_};
   accepted_ = false;
   sent_ = false;
+  refusal_.clear();
 }
 
 void Supervisor::poll(std::int64_t now_ns) {
   hal::CanFrame frame;
   while (bus_.receive(frame)) take(frame);
-  if (!order_ || accepted_ || !trouble_.empty() || !heartbeat_) return;
+  // Faults are no reason to be silent: reset is an order, too.
+  if (!order_ || accepted_ || !refusal_.empty() || !heartbeat_) return;
   // One frame at a time: two with the same counter would have the same answer.
   if (!awaiting_ || now_ns - sent_ns_ >= kRepeat_ns) send(now_ns);
 }
@@ -66,13 +68,14 @@ void Supervisor::take(const hal::CanFrame& frame) {
 void Supervisor::take_acknowledge(const OrderAcknowledge& answer) {
   if (answer.supervisor_id != id_) return;
   counter_ = answer.expected_counter;
+  mode_ = answer.mode;
   if (answer.counter != sent_counter_) return;
   awaiting_ = false;
   if (!order_ || accepted_ || !sent_) return;
   if (answer.result == OrderResult::kAccepted) {
     accepted_ = true;
   } else if (answer.result != OrderResult::kBadCounter) {  // that one goes out again, mended
-    trouble_ = "the order '" + name_of(kOrderNames, std::uint32_t(order_->order)) +
+    refusal_ = "the order '" + name_of(kOrderNames, std::uint32_t(order_->order)) +
                "' was refused: " + name_of(kOrderResultNames, std::uint32_t(answer.result)) +
                " (mode " + name_of(kModeNames, std::uint32_t(answer.mode)) + ")";
   }
@@ -80,15 +83,16 @@ void Supervisor::take_acknowledge(const OrderAcknowledge& answer) {
 
 void Supervisor::take_heartbeat(const Heartbeat& heartbeat) {
   if (heartbeat.protocol_hash != kProtocolHash) {
-    trouble_ = "the firmware speaks another dictionary: its protocol hash is " +
+    heartbeat_.reset();
+    refusal_ = "the firmware speaks another dictionary: its protocol hash is " +
                std::to_string(heartbeat.protocol_hash) + ", ours " + std::to_string(kProtocolHash);
     return;
   }
   heartbeat_ = heartbeat;
-  if (heartbeat.faults != 0) {
-    trouble_ = "the firmware reports " + fault_names(heartbeat.faults) + " in mode " +
-               name_of(kModeNames, std::uint32_t(heartbeat.mode));
-  }
+  mode_ = heartbeat.mode;
+  faults_ = heartbeat.faults == 0 ? ""
+                                  : "the firmware reports " + fault_names(heartbeat.faults) +
+                                        " in mode " + name_of(kModeNames, std::uint32_t(*mode_));
 }
 
 }  // namespace hoof::bridge

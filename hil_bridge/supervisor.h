@@ -30,8 +30,14 @@ class Supervisor {
   /// The toes as last told by the firmware.
   const std::optional<firmware::protocol::FootToe>& toe() const { return toe_; }
 
-  /// Why this cannot go on, in words: a refused order, a fault, another dictionary; else empty.
-  const std::string& trouble() const { return trouble_; }
+  /// The mode as last told, by heartbeat or by the answer to an order.
+  const std::optional<firmware::protocol::Mode>& mode() const { return mode_; }
+
+  /// Why the order in force will not be obeyed, in words: it was refused, or the firmware speaks
+  /// another dictionary; else empty.
+  const std::string& refusal() const { return refusal_; }
+  /// Why a test cannot go on: the refusal, or else the faults in the last heartbeat; else empty.
+  const std::string& trouble() const { return refusal_.empty() ? faults_ : refusal_; }
 
  private:
   void take(const hal::CanFrame& frame);
@@ -50,7 +56,9 @@ class Supervisor {
   std::int64_t sent_ns_ = 0;
   std::optional<firmware::protocol::Heartbeat> heartbeat_;
   std::optional<firmware::protocol::FootToe> toe_;
-  std::string trouble_;
+  std::optional<firmware::protocol::Mode> mode_;
+  std::string refusal_;
+  std::string faults_;
 };
 
 }  // namespace hoof::bridge

@@ -49,6 +49,7 @@ struct Bench {
     answer.supervisor_id = id;
     answer.counter = order.counter;
     answer.result = result;
+    answer.mode = Mode::kHoming;
     answer.expected_counter = static_cast<std::uint8_t>(expected_counter);
     foot.send(encode(answer));
     return run(3);
@@ -86,6 +87,8 @@ TEST_CASE("an accepted order is not sent again, and the next one carries the exp
   REQUIRE(first.size() == 1);
   CHECK(bench.after_answer(first[0], OrderResult::kAccepted, 41).empty());
   CHECK(bench.supervisor.accepted());
+  REQUIRE(bench.supervisor.mode());
+  CHECK(*bench.supervisor.mode() == Mode::kHoming);
   CHECK(bench.run(100).empty());
   bench.supervisor.order(Order::kRun, 0.1, 0.45);
   CHECK_FALSE(bench.supervisor.accepted());
@@ -154,7 +157,7 @@ TEST_CASE("a refused order is told in words and not sent again") {
   const auto first = bench.after_heartbeat();
   REQUIRE(first.size() == 1);
   bench.after_answer(first[0], OrderResult::kNoLeg, 1);
-  CHECK(bench.supervisor.trouble() == "the order 'run' was refused: no_leg (mode off)");
+  CHECK(bench.supervisor.trouble() == "the order 'run' was refused: no_leg (mode homing)");
   CHECK_FALSE(bench.supervisor.accepted());
   CHECK(bench.run(100).empty());
 }
@@ -181,6 +184,35 @@ TEST_CASE("faults in the heartbeat are named") {
   REQUIRE(bench.supervisor.heartbeat());
   CHECK(bench.supervisor.trouble() ==
         "the firmware reports drive_lost, emergency_stop in mode damped_stop");
+}
+
+TEST_CASE("faults do not keep an order back, for reset is one") {
+  Bench bench;
+  bench.supervisor.order(Order::kReset);
+  Heartbeat ill = Bench::healthy();
+  ill.mode = Mode::kFault;
+  ill.faults = 1u << 8;
+  const auto sent = bench.after_heartbeat(ill);
+  REQUIRE(sent.size() == 1);
+  CHECK(bench.supervisor.trouble() == "the firmware reports homing_failed in mode fault");
+  CHECK(bench.supervisor.refusal().empty());
+  bench.after_answer(sent[0], OrderResult::kAccepted, 1);
+  bench.after_heartbeat();
+  CHECK(bench.supervisor.accepted());
+  CHECK(bench.supervisor.trouble().empty());
+}
+
+TEST_CASE("after a refusal a new order can be given") {
+  Bench bench;
+  bench.supervisor.order(Order::kRun, 0.1, 0.5);
+  const auto first = bench.after_heartbeat();
+  REQUIRE(first.size() == 1);
+  bench.after_answer(first[0], OrderResult::kNoLeg, 1);
+  bench.supervisor.order(Order::kReady, 0.1);
+  CHECK(bench.supervisor.refusal().empty());
+  const auto second = bench.run(2);
+  REQUIRE(second.size() == 1);
+  CHECK(second[0].order == Order::kReady);
 }
 
 TEST_CASE("the toes are known as the foot told them") {

@@ -11,6 +11,7 @@
 #include "tools/cli/commands.h"
 #include "tools/cli/invocation.h"
 #include "tools/run/errors.h"
+#include "tools/trajectory/trajectory_command.h"
 
 namespace {
 
@@ -69,6 +70,9 @@ int main(int argc, char** argv) {
   Invocation invocation;
   add_sinkage_command(app, invocation);
   add_traction_command(app, invocation);
+  add_order_command(app, invocation);
+  add_dbc_command(app, invocation);
+  add_trajectory_command(app);
   add_report_command(app, invocation);
   add_version_command(app, invocation);
 
@@ -76,8 +80,10 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
     return app.exit(help);
+  } catch (const CLI::RuntimeError& done) {
+    return done.get_exit_code();  // a command that has said itself what is wrong
   } catch (const CLI::ParseError& error) {
     return complain(explain(app, error, argc, argv), ExitStatus::kUserError);
   }
-  return run_invocation(invocation);
+  return invocation.run ? run_invocation(invocation) : EXIT_SUCCESS;
 }

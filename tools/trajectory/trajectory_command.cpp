@@ -155,6 +155,10 @@ void add_trajectory_command(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("trajectory", "Check, try and show the trajectory generator");
   command->require_subcommand(1);
+  command->footer(
+      "Examples:\n"
+      "  hoof trajectory check tests/data/trajectory/cases_public.csv\n"
+      "  hoof trajectory random --count 10000 --seed 3");
   add_check(*command);
   add_random(*command);
   add_solve(*command);

@@ -10,6 +10,7 @@
 
 #include "tests/tools/report/synthetic_run.h"
 #include "tests/tools/run/scratch_folder.h"
+#include "tools/run/output_file.h"
 
 namespace {
 
@@ -48,6 +49,16 @@ TEST_CASE("bad input is one line on standard error and exit status 2") {
       {"dance", "unknown command 'dance'; known are"},
       {"--loud", "--loud"},
       {"version --loud", "version: "},
+      {"dbc --out " + absent + "/hoof.dbc", "hoof.dbc: cannot open: No such file"},
+      {"command", "command: ORDER is required"},
+      {"command ready", "command: --bus is required"},
+      {"command dance --bus vcan0", "dance not in {"},
+      {"command ready --bus vcan0 --toe 41", "--toe: Value 41 not in range"},
+      {"command stop --bus vcan0 --toe 20", "--toe: only ready and run open the toes"},
+      {"command ready --bus vcan0 --frequency 1", "--frequency: only run has one"},
+      {"command run --bus vcan0", "--frequency: run needs one, e.g. --frequency 0.45"},
+      {"command run --bus vcan0 --frequency 3", "--frequency: Value 3 not in range"},
+      {"command stop --bus vcan0 --id 0", "--id: Value 0 not in range"},
       {"report", "report: RUN_DIR is required"},
       {"report " + absent, "absent: is no run folder"},
       {"report " + scratch.path().string(), "result.json: cannot read: No such file"},
@@ -59,6 +70,34 @@ TEST_CASE("bad input is one line on standard error and exit status 2") {
     CHECK_THAT(outcome.text, Catch::StartsWith("hoof: ") && Catch::Contains(c.complaint));
     CHECK(std::count(outcome.text.begin(), outcome.text.end(), '\n') == 1);
   }
+}
+
+TEST_CASE("a bus that is not there is told with its cure, and is no fault of the flags") {
+  for (const char* arguments : {"command stop --bus nocan7", "command estop --bus nocan7"}) {
+    const Outcome outcome = hoof_program(arguments);
+    CHECK(outcome.status == 3);
+    // "no CAN in this kernel" or "no such interface", each with what to do about it.
+    CHECK_THAT(outcome.text, Catch::StartsWith("hoof: nocan7: ") &&
+                                 (Catch::Contains("with-vcan") || Catch::Contains("ip link add")));
+    CHECK(std::count(outcome.text.begin(), outcome.text.end(), '\n') == 1);
+  }
+}
+
+TEST_CASE("hoof dbc prints the dictionary, or writes it to a file") {
+  const Outcome printed = hoof_program("dbc", "");
+  CHECK(printed.status == 0);
+  CHECK_THAT(printed.text, Catch::StartsWith("VERSION") && Catch::Contains("BO_ 33 ToeCommand: 8"));
+  const hoof::tests::ScratchFolder scratch;
+  const std::string file = (scratch.path() / "hoof.dbc").string();
+  CHECK(hoof_program("dbc --out " + file, "").text.empty());
+  CHECK(hoof::tools::read_file(file) == printed.text);
+}
+
+TEST_CASE("hoof trajectory ends with the status that its check gives") {
+  const std::string data = std::string(HOOF_TEST_DATA_DIR) + "/trajectory/";
+  CHECK(hoof_program("trajectory random --count 50 --seed 3", "").status == 0);
+  CHECK(hoof_program("trajectory check " + data + "wrong_duration.csv", "").status == 1);
+  CHECK(hoof_program("trajectory").status == 2);
 }
 
 TEST_CASE("every command has help with an example") {
