@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <system_error>
 #include <type_traits>
 
 namespace hoof::sim {
@@ -84,6 +85,25 @@ BedState parse(const std::string& bytes, const std::string& key) {
   return state;
 }
 
+/// All bytes or no file.
+void write_whole(const std::filesystem::path& file, const std::string& bytes) {
+  const std::filesystem::path temporary = file.string() + ".part-" + std::to_string(getpid());
+  std::error_code error;
+  if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), error);
+  if (!error) {
+    errno = 0;
+    std::ofstream out(temporary, std::ios::binary);
+    out.write(bytes.data(), std::streamsize(bytes.size()));
+    out.close();
+    if (!out) error.assign(errno != 0 ? errno : EIO, std::generic_category());
+  }
+  if (!error) std::filesystem::rename(temporary, file, error);
+  if (!error) return;
+  std::error_code ignored;
+  std::filesystem::remove(temporary, ignored);
+  throw std::runtime_error("cannot write " + file.string() + ": " + error.message());
+}
+
 }  // namespace
 
 std::uint64_t fnv1a(const void* bytes, std::size_t size, std::uint64_t hash) {
@@ -105,18 +125,13 @@ void write_bed_file(const std::filesystem::path& file, const std::string& key,
   for (const GrainContact& c : state.contacts) w.put(c.i), w.put(c.j), w.put(c.xi_m);
   w.put(fnv1a(w.bytes().data(), w.bytes().size()));
 
-  if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
-  const std::filesystem::path temporary = file.string() + ".part-" + std::to_string(getpid());
-  std::ofstream out(temporary, std::ios::binary);
-  out.write(w.bytes().data(), std::streamsize(w.bytes().size()));
-  out.close();
-  if (!out) {
-    const std::string cause = std::strerror(errno);
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    throw std::runtime_error("cannot write " + file.string() + ": " + cause);
-  }
-  std::filesystem::rename(temporary, file);
+  write_whole(file, w.bytes());
+}
+
+void require_writable(const std::filesystem::path& file) {
+  const std::filesystem::path trial = file.string() + ".trial";
+  write_whole(trial, "");
+  std::filesystem::remove(trial);
 }
 
 BedState read_bed_file(const std::filesystem::path& file, const std::string& key) {

@@ -18,6 +18,10 @@ std::uint64_t fnv1a(const void* bytes, std::size_t size, std::uint64_t hash = 0x
 void write_bed_file(const std::filesystem::path& file, const std::string& key,
                     const BedState& state);
 
+/// For finding out before a bed is settled, which may take hours.
+/// @throws std::runtime_error as write_bed_file where the file's folder takes no files
+void require_writable(const std::filesystem::path& file);
+
 /// @throws std::runtime_error naming the file: not a bed, truncated, damaged, or made from another
 /// key
 BedState read_bed_file(const std::filesystem::path& file, const std::string& key);

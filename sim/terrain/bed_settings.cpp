@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace hoof::sim {
 namespace {
@@ -40,8 +41,9 @@ void BedSettings::validate() const {
   double total = 0;
   for (std::size_t i = 0; i < sieve.size(); ++i) {
     const SieveClass& c = sieve[i];
-    require(c.low_m < c.high_m,
-            "sieve class " + std::to_string(i + 1) + ": sieve_low_mm must be under sieve_high_mm");
+    require(c.low_m < c.high_m, "sieve class " + std::to_string(i + 1) +
+                                    ": sieve_low_mm = " + number(c.low_m * 1e3) +
+                                    " must be under sieve_high_mm = " + number(c.high_m * 1e3));
     require(i == 0 || c.low_m >= sieve[i - 1].high_m,
             "sieve classes must go from small to large without overlap");
     total += c.mass_share;
@@ -52,9 +54,12 @@ void BedSettings::validate() const {
   require(depth_m >= 4 * d, "depth_mm = " + number(depth_m * 1e3) +
                                 ", must be at least 4 of the largest grains (" + number(4e3 * d) +
                                 " mm)");
-  require(std::min(box_length_m, box_width_m) >= 6 * d,
-          "box_length_mm and box_width_mm must be at least 6 of the largest grains (" +
-              number(6e3 * d) + " mm)");
+  for (const auto& [name, side_m] :
+       {std::pair("box_length_mm", box_length_m), std::pair("box_width_mm", box_width_m)}) {
+    require(side_m >= 6 * d, name + (" = " + number(side_m * 1e3)) +
+                                 ", must be at least 6 of the largest grains (" + number(6e3 * d) +
+                                 " mm)");
+  }
 }
 
 BedSettings read_bed(Reader section) {

@@ -65,6 +65,7 @@ StoredBed BedStore::get(const BedSettings& bed, const Materials& materials, std:
       stored.discarded = e.what();  // said by the caller; the bed is made anew
     }
   }
+  require_writable(stored.file);
   stored.state = make_bed(bed, materials, seed, threads, progress);
   stored.made = true;
   write_bed_file(stored.file, k, stored.state);
