@@ -137,7 +137,7 @@ std::string examples(Experiment experiment) {
   return "Examples:\n"
          "  hoof traction\n"
          "  hoof traction --foot bionic-plain --frequency 1.12 --toe 20\n"
-         "  hoof traction --drive prescribed --set bed.seed=3 --threads 2";
+         "  hoof traction --drive prescribed --set bed.depth_mm=100 --threads 2";
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <exception>
 #include <iostream>
+#include <stdexcept>
 #include <string>
 
 #include "sim/config/config_error.h"
@@ -51,6 +52,9 @@ int run_invocation(const Invocation& invocation) {
   } catch (const UserError& error) {
     return complain(error.what(), ExitStatus::kUserError);
   } catch (const hoof::sim::ConfigError& error) {
+    return complain(error.what(), ExitStatus::kUserError);
+  } catch (const std::invalid_argument& error) {
+    // Settings that are possible one by one but not together.
     return complain(error.what(), ExitStatus::kUserError);
   } catch (const std::exception& error) {
     return complain(error.what(), ExitStatus::kCannotFinish);

@@ -6,7 +6,7 @@ namespace {
 std::string check_setting(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals != std::string::npos && equals > 0) return "";
-  return "'" + text + "' is not of the form key=value, e.g. bed.seed=3";
+  return "'" + text + "' is not of the form key=value, e.g. bed.depth_mm=100";
 }
 
 }  // namespace
@@ -24,7 +24,7 @@ void add_run_options(CLI::App& command, RunOptions& options) {
       ->check(CLI::Range(1, 1024));
   command
       .add_option("--set", options.settings,
-                  "Any setting of the TOML files, e.g. --set bed.seed=3; may be repeated")
+                  "Any setting of the TOML files, e.g. --set bed.depth_mm=100; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false)
       ->check(CLI::Validator(check_setting, ""));

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdio>
 #include <iostream>
+#include <system_error>
 
 #include "hil_bridge/session.h"
 #include "sim/terrain/dem_terrain.h"
@@ -128,6 +129,13 @@ class Run {
           *experiment_, run_.parameters, *wires, session_settings(run_), observe);
       progress.finish();
       return result;
+    } catch (const UserError&) {
+      progress.finish();
+      throw;
+    } catch (const std::system_error& error) {
+      // Output that cannot be written, for instance on a full disk: nothing half-written is kept.
+      progress.finish();
+      throw UserError(error.what());
     } catch (const std::runtime_error& error) {
       progress.finish();
       recorder_->close();

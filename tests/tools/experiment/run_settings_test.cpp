@@ -1,0 +1,133 @@
+#include "tools/experiment/run_settings.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "sim/config/config_error.h"
+#include "tests/tools/experiment/stl_cube.h"
+#include "tests/tools/run/scratch_folder.h"
+#include "tools/run/output_file.h"
+
+using namespace hoof;
+using tools::read_run_settings;
+using tools::RunSettings;
+using Strings = std::vector<std::string>;
+
+namespace {
+
+/// The whole message, which must be one line.
+std::string refusal(const std::string& experiment, const Strings& set) {
+  try {
+    read_run_settings(experiment, set);
+  } catch (const sim::ConfigError& error) {
+    const std::string text = error.what();
+    CHECK(text.find('\n') == std::string::npos);
+    return text;
+  }
+  return "not refused";
+}
+
+}  // namespace
+
+TEST_CASE("what is wrong with a setting is one line with origin, key, value and bound") {
+  struct Case {
+    const char* experiment;
+    Strings set;
+    const char* line;
+  };
+  const std::vector<Case> cases = {
+      {"sinkage",
+       {"experiment.spede_m_s=1"},
+       "--set: experiment.spede_m_s = 1: unknown key, did you mean speed_m_s?"},
+      {"sinkage",
+       {"bead.depth_mm=1"},
+       "--set: bead.depth_mm: no section 'bead'; known are experiment, foot, leg, bed, materials, "
+       "drives, coupling, rigid_terrain, control"},
+      {"sinkage",
+       {"bed.depth_cm=12"},
+       "--set: bed.depth_cm = 12: unknown key, did you mean depth_mm?"},
+      {"sinkage",
+       {"experiment.load_kg=-40"},
+       "--set: experiment.load_kg = -40: must be a number from 0.01 to 10000.0 kg"},
+      {"sinkage",
+       {"experiment.load_kg=\"40\""},
+       "--set: experiment.load_kg = \"40\": must be a number from 0.01 to 10000.0 kg"},
+      {"sinkage",
+       {"experiment.toe_deg=55"},
+       "--set: experiment.toe_deg = 55: must be a number from 0.0 to 40.0 deg"},
+      {"traction",
+       {"experiment.toe_deg=40.5"},
+       "--set: experiment.toe_deg = 40.5: must be a number from 0.0 to 40.0 deg"},
+      {"sinkage",
+       {"use.foot=\"traditional\"", "experiment.toe_deg=20"},
+       "--set: experiment.toe_deg = 20: the foot 'traditional' has no toes"},
+      {"sinkage",
+       {"control.toe_kp=100"},
+       "--set: control.toe_kp = 100: the firmware has no such parameter; did you mean "
+       "control.toe_kp_Nm_rad?"},
+      {"sinkage",
+       {"control.toe_kp_Nm_rad=501"},
+       "--set: control.toe_kp_Nm_rad = 501: must be in 0 ... 500 Nm/rad"},
+      {"sinkage",
+       {"control.toe_kp_Nm_rad=-1"},
+       "--set: control.toe_kp_Nm_rad = -1: must be in 0 ... 500 Nm/rad"},
+      {"sinkage",
+       {"control.toe_kp_Nm_rad=true"},
+       "--set: control.toe_kp_Nm_rad = true: must be a number"},
+      {"traction",
+       {"experiment.speed_m_s=1"},
+       "--set: experiment.speed_m_s = 1: unknown key, did you mean experiment.seed?"},
+      {"traction",
+       {"experiment.cycles=0"},
+       "--set: experiment.cycles = 0: must be a whole number from 1 to 100"},
+  };
+  for (const Case& c : cases) CHECK(refusal(c.experiment, c.set) == c.line);
+}
+
+TEST_CASE("a mesh that is missing or open is refused with its name and place") {
+  const tests::ScratchFolder scratch;
+  const auto with_mesh = [&](const std::string& name) {
+    return refusal("sinkage", {"use.foot=\"stl\"",
+                               "foot.mesh_file=\"" + (scratch.path() / name).string() + "\""});
+  };
+  tools::write_file(scratch.path() / "closed.stl", tests::stl_cube(true));
+  tools::write_file(scratch.path() / "open.stl", tests::stl_cube(false));
+  CHECK(with_mesh("closed.stl") == "not refused");
+  CHECK(with_mesh("missing.stl") ==
+        (scratch.path() / "missing.stl").string() + ": cannot be read: No such file or directory");
+  CHECK_THAT(with_mesh("open.stl"), Catch::StartsWith((scratch.path() / "open.stl").string()) &&
+                                        Catch::Contains("the mesh has a hole"));
+}
+
+TEST_CASE("bounds themselves are taken") {
+  const RunSettings run = read_run_settings(
+      "sinkage", {"experiment.toe_deg=40", "control.toe_kp_Nm_rad=0", "experiment.load_kg=0.01"});
+  CHECK(run.toe_rad() == Approx(40 * M_PI / 180));
+  CHECK(run.parameters.control.toe.kp_Nm_rad == 0);
+}
+
+TEST_CASE("the firmware is told about its rig: drives, end stop, friction") {
+  const RunSettings sinkage = read_run_settings("sinkage", {});
+  CHECK(sinkage.parameters.toe_present == 1);
+  CHECK(sinkage.parameters.leg_present == 0);
+  CHECK(sinkage.parameters.control.homing.stop_angle_rad == Approx(-2 * M_PI / 180));
+  CHECK(sinkage.drives[0]);
+  CHECK_FALSE(sinkage.drives[1]);
+  const RunSettings plain = read_run_settings("sinkage", {"use.foot=\"traditional\""});
+  CHECK(plain.parameters.toe_present == 0);
+  CHECK(plain.toe_rad() == 0);  // the default opening is for feet that have toes
+  CHECK_FALSE(plain.drives[0]);
+  const RunSettings traction = read_run_settings("traction", {"drives.hip.coulomb_friction_Nm=3"});
+  CHECK(traction.parameters.leg_present == 1);
+  CHECK(traction.parameters.control.leg_model.friction_Nm == 3);
+  CHECK(traction.parameters.control.path.semi_x_m == Approx(0.1));
+  CHECK(traction.firmware_leg());
+  const RunSettings prescribed = read_run_settings("traction", {"experiment.drive=\"prescribed\""});
+  CHECK(prescribed.parameters.leg_present == 0);
+  CHECK_FALSE(prescribed.drives[1]);
+}
+
+TEST_CASE("a load in newtons overrides the one in kilograms") {
+  CHECK(read_run_settings("sinkage", {"experiment.load_kg=10"}).sinkage.load_N == Approx(98.1));
+  CHECK(read_run_settings("sinkage", {"experiment.load_N=400"}).sinkage.load_N == Approx(400));
+}
