@@ -145,6 +145,21 @@ TEST_CASE("rest is called one rest time after the last fast moment") {
   CHECK(test->time_s() - fast_s == Approx(settings.rest_time_s).margin(1.5 * kExchange_s));
 }
 
+TEST_CASE("a foot that arrives slower than the rest speed still gets its rest time on the ground") {
+  SinkageSettings settings = light_settings();
+  settings.speed_m_s = 0.002;
+  settings.start_height_m = 0.001;
+  settings.rest_speed_m_s = 0.1;  // never exceeded: the load on these springs gives 0.05 m/s
+  const auto test = on_floor(settings);
+  for (int i = 0; i < 1000; ++i) test->advance();
+  test->foot_ready();
+  run_to(*test, Phase::kLoaded);
+  const double contact_s = test->time_s();
+  run_to(*test, Phase::kFinished);
+  CHECK(test->rested());
+  CHECK(test->time_s() - contact_s == Approx(0.03).margin(1.5 * kExchange_s));
+}
+
 TEST_CASE("a load as a force moves the foot alone, as a mass the block too") {
   const auto [load_as, mass_kg] = GENERATE(
       table<LoadAs, double>({{LoadAs::kForce, 1.5}, {LoadAs::kMass, 100 / kGravity_m_s2}}));
