@@ -11,10 +11,12 @@
 namespace hoof::firmware::protocol {
 namespace {
 
-/// Shortest text that reads back as the same float.
+/// Shortest text that reads back as the same float, without an exponent: not every reader of DBC
+/// files takes one.
 std::string text(float value) {
   std::array<char, 32> buffer{};
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+  char* const last = buffer.data() + buffer.size();
+  const auto end = std::to_chars(buffer.data(), last, value, std::chars_format::fixed).ptr;
   return {buffer.data(), end};
 }
 

@@ -35,14 +35,15 @@ class ByteSource {
   std::size_t next_ = 0;
 };
 
-/// Flags of a frame from the bits of one byte; 0 is a plain classic data frame.
+/// Flags of a frame from the bits of one byte; 0 is a plain classic data frame. Bits 4 and 5 exist
+/// in FD frames only.
 inline void set_flags(hal::CanFrame& frame, std::uint8_t bits) {
   frame.extended = (bits & 1u) != 0;
   frame.remote = (bits & 2u) != 0;
   frame.error = (bits & 4u) != 0;
   frame.fd = (bits & 8u) != 0;
-  frame.bit_rate_switch = (bits & 16u) != 0;
-  frame.error_state_indicator = (bits & 32u) != 0;
+  frame.bit_rate_switch = frame.fd && (bits & 16u) != 0;
+  frame.error_state_indicator = frame.fd && (bits & 32u) != 0;
 }
 
 }  // namespace hoof::tests::fuzz

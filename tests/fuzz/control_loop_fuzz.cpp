@@ -121,7 +121,7 @@ class Script {
     if ((where & 4u) != 0) frame.length = 8;
     bytes_.fill(frame, std::min<std::size_t>(frame.length, 12));
     const bool has_crc = frame.length >= 1 && frame.length <= CanFrame::kMaxClassicLength;
-    if ((where & 8u) != 0 && has_crc) frame.data[frame.length - 1u] = crc8(frame);
+    if ((where & 8u) != 0 && has_crc) frame.data[frame.length - 1u] = protocol::crc8(frame);
     rig_.bus(where & 1u).arriving.push_back(frame);
   }
 

@@ -11,6 +11,7 @@ using namespace hoof::firmware::protocol;
 using hoof::hal::CanFrame;
 using hoof::tests::fuzz::ByteSource;
 using hoof::tests::fuzz::require;
+using hoof::tests::fuzz::set_flags;
 
 namespace {
 

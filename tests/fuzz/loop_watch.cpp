@@ -225,7 +225,7 @@ void LoopWatch::check_rate(std::size_t joint, const app::Telemetry& t) {
               std::abs(passed.command.kd_Nm_s_rad) <= limits.kd_Nm_s_rad,
           "the gate keeps the gains");
   // Damping may set in at any rate, wished or put in the place of a wish.
-  const bool damping = is_pure_damping(t.wish.joint[joint].command) ||
+  const bool damping = safety::is_pure_damping(t.wish.joint[joint].command) ||
                        (t.verdict.limits[joint] & safety::limit::kLatched) != 0;
   const float change_Nm = limits.torque_rate_Nm_s * control::kTick_s;
   require(damping || std::abs(torque_Nm - torque_before_Nm_[joint]) <= change_Nm + kRounding_Nm,
