@@ -1,5 +1,6 @@
 #include "firmware/protocol/codec.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -89,6 +90,28 @@ TEST_CASE("A value packs to the nearest code, halves upwards, and never wraps") 
     CHECK(raw_from_value(torque, -beyond) == 0);
   }
   CHECK(raw_from_value(torque, std::nanf("")) == raw_from_value(torque, 0.0f));
+}
+
+TEST_CASE("A whole number too large for its signal packs as the largest, it never wraps") {
+  constexpr Signal kByte = number("byte", 0, 8);
+  CHECK(detail::pack<std::uint16_t>(kByte, 255) == 255);
+  CHECK(detail::pack<std::uint16_t>(kByte, 256) == 255);
+  CHECK(detail::pack<std::uint16_t>(kByte, 65535) == 255);
+}
+
+TEMPLATE_TEST_CASE("Every message says why it refuses a frame and then changes nothing", "",
+                   EmergencyStop, Sync, SupervisorOrder, OrderAcknowledge, Heartbeat, FootToe,
+                   FootLeg, FootGround, FootGate, FootCounters) {
+  const CanFrame good = encode(TestType{});
+  CanFrame short_frame = good;
+  --short_frame.length;
+  CanFrame full = good;
+  std::fill_n(full.data.begin(), full.length, std::uint8_t{0xFF});
+  full.remote = true;
+  TestType message;
+  CHECK(decode(short_frame, message) == DecodeResult::kWrongLength);
+  CHECK(decode(full, message) == DecodeResult::kWrongFormat);
+  CHECK(encode(message) == good);
 }
 
 TEST_CASE("Frames with the wrong identifier, format or length change nothing") {

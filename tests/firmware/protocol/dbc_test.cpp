@@ -94,3 +94,22 @@ TEST_CASE("Value tables, cycle times and comments are in the DBC") {
   CHECK(dbc.find("CM_ SG_ 33 kp_Nm_rad \"Stiffness\";") != std::string::npos);
   CHECK(dbc.find("[0|4294967295]") != std::string::npos);
 }
+
+TEST_CASE("Numbers in the DBC have no exponent, and each reads back as the same float") {
+  const std::regex exponent(R"([0-9]e[-+]?[0-9])");
+  std::istringstream lines(text());
+  for (std::string line; std::getline(lines, line);) {
+    INFO(line);
+    CHECK_FALSE((line.starts_with(" SG_ ") && std::regex_search(line, exponent)));
+  }
+  const auto messages = parse(text());
+  for (const MessageSpec& message : kMessages) {
+    for (const Signal& signal : message.signals) {
+      INFO(message.name << '.' << signal.name);
+      const ParsedSignal& parsed =
+          messages.at(static_cast<int>(message.id)).at(std::string(signal.name));
+      CHECK(static_cast<float>(parsed.scale) == signal.scale);
+      CHECK(static_cast<float>(parsed.offset) == signal.offset);
+    }
+  }
+}

@@ -100,3 +100,21 @@ TEST_CASE("A reply under the identifier of one drive with the number of another 
   CHECK(decode_reply(Drive::kHip, frame, reply) == DecodeResult::kWrongIdentifier);
   CHECK(reply.position_rad == 1.0f);
 }
+
+TEST_CASE("A command or reply that is not in order changes nothing and is no switch") {
+  for (const Drive drive : kDrives) {
+    CanFrame command = encode_switch(drive, DriveSwitch::kEnter);
+    command.length = 7;
+    DriveOrder order;
+    order.command.torque_Nm = 1.0f;
+    CHECK(decode_command(drive, command, order) == DecodeResult::kWrongLength);
+    CHECK_FALSE(order.action.has_value());
+    CHECK(order.command.torque_Nm == 1.0f);
+    CanFrame answer = encode_reply(drive, {});
+    answer.remote = true;
+    DriveReply reply;
+    reply.torque_Nm = 1.0f;
+    CHECK(decode_reply(drive, answer, reply) == DecodeResult::kWrongFormat);
+    CHECK(reply.torque_Nm == 1.0f);
+  }
+}

@@ -99,6 +99,16 @@ TEST_CASE("Nothing is expected of drives while the mode does not use them") {
   }
 }
 
+TEST_CASE("Drives are watched in every mode that uses them") {
+  for (const Mode mode : {Mode::kHoming, Mode::kReady, Mode::kRunning, Mode::kDampedStop}) {
+    INFO("mode " << int(mode));
+    TorqueGate gate({});
+    control::PerJoint<JointState> joints{};
+    CHECK(gate.inspect(joints, mode, 0) == 0);
+    CHECK(gate.inspect(joints, mode, 21 * kMillisecond_ns) == fault::kDriveLost);
+  }
+}
+
 TEST_CASE("Joints that the rig does not have are neither watched nor commanded") {
   TorqueGate gate({.toe = true, .leg = false});
   control::PerJoint<JointState> joints{};
@@ -210,6 +220,26 @@ TEST_CASE("The allow-list, mode by mode") {
     CHECK(verdict.limits[c.joint] == (c.passes ? 0 : limit::kRefused));
     CHECK(w.gate.interventions() == (c.passes ? 0u : 1u));
   }
+}
+
+TEST_CASE("A mode that is none allows nothing but exit") {
+  const auto none = static_cast<Mode>(7);  // a flipped bit
+  Watched w;
+  const JointCommand damping{.kd_Nm_s_rad = 1.0f};
+  CHECK(w.gate.check(wish_for(none, 1, DriveAction::kCommand, damping), w.joints).limits[1] ==
+        limit::kRefused);
+  CHECK(w.gate.verdict().joint[1].action == DriveAction::kExit);
+  CHECK(w.gate.check(wish_for(none, 1, DriveAction::kExit), w.joints).limits[1] == 0);
+}
+
+TEST_CASE("A latched gate lets a wish of pure damping through as it is") {
+  Watched w;
+  w.gate.latch();
+  const auto& verdict = w.gate.check(
+      wish_for(Mode::kDampedStop, 1, DriveAction::kCommand, {.kd_Nm_s_rad = 123.0f}), w.joints);
+  CHECK(verdict.joint[1].action == DriveAction::kCommand);
+  CHECK(verdict.joint[1].command.kd_Nm_s_rad == 123.0f);
+  CHECK(verdict.limits[1] == 0);
 }
 
 TEST_CASE("A command for a joint never heard of is refused") {
