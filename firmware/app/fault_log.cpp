@@ -93,12 +93,12 @@ EraseResult FaultLog::erase(control::Mode mode) {
 void FaultLog::open() {
   state_ = read_header();
   used_ = 0;
-  if (state_ != LogState::kReady) return;
+  if (state_ == LogState::kOtherLayout) return;
   // Behind the last slot with anything in it, be it torn.
   for (std::size_t slot = 0; slot < capacity(); ++slot) {
     if (!blank(slot)) used_ = slot + 1;
   }
-  if (used_ == capacity()) state_ = LogState::kFull;
+  if (state_ == LogState::kReady && used_ == capacity()) state_ = LogState::kFull;
 }
 
 LogState FaultLog::read_header() const {

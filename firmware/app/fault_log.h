@@ -18,8 +18,8 @@ namespace hoof::firmware::app {
 enum class LogState : std::uint8_t {
   kReady = 0,
   kFull,         // readable; takes no more until erased
-  kUnformatted,  // never erased by erase(), or an erase was cut: nothing to read, takes nothing
-  kOtherLayout,  // of a firmware that stores otherwise: as unformatted
+  kUnformatted,  // never erased by erase(), or an erase was cut: what is whole can be read
+  kOtherLayout,  // of a firmware that stores otherwise: nothing can be read
 };
 
 enum class AppendResult : std::uint8_t {

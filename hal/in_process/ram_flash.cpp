@@ -62,6 +62,14 @@ bool RamFlash::power_fails() {
   return true;
 }
 
+/// From half of the bits down to one in 64: a word with a single doubtful bit reads like a whole
+/// one half of the time.
+RamFlash::Word RamFlash::random_bits() {
+  Word bits = random_word();
+  for (Word thinner = random_word() % 6; thinner > 0; --thinner) bits &= random_word();
+  return bits;
+}
+
 void RamFlash::half_program(Cell& cell, Word value) {
   const Word to_clear = (cell.value | cell.unstable) & ~value;
   switch (outcome_) {
@@ -78,7 +86,7 @@ void RamFlash::half_program(Cell& cell, Word value) {
       break;
     }
     case CutOutcome::kUnstable:
-      cell.unstable |= to_clear;
+      cell.unstable |= to_clear & random_bits();
       break;
   }
 }
@@ -98,7 +106,7 @@ void RamFlash::half_erase(Cell& cell) {
       break;
     }
     case CutOutcome::kUnstable:
-      cell.unstable |= ~cell.value;
+      cell.unstable |= ~cell.value & random_bits();
       break;
   }
 }

@@ -18,7 +18,8 @@ enum class CutOutcome : std::uint8_t {
   kOld,       // nothing happened yet
   kNew,       // it was just done
   kMixed,     // programming: each bit old or new; erasing: each word old, erased, mixed or garbage
-  kUnstable,  // each bit that was to change reads old or new, anew at every reading
+  kUnstable,  // of the bits that were to change some, many or one, read old or new, anew at every
+              // reading; the others are old
 };
 
 /// Refuses what real flash cannot do. Same seed, same calls: same contents.
@@ -59,6 +60,7 @@ class RamFlash final : public Nonvolatile {
   void half_program(Cell& cell, Word value);
   void half_erase(Cell& cell);
   Word random_word() const { return static_cast<Word>(random_()); }
+  Word random_bits();
 
   std::vector<std::vector<Cell>> sectors_;
   mutable std::mt19937 random_;
