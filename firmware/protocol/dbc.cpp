@@ -56,7 +56,6 @@ void write_comments(std::ostream& out) {
   for (const MessageSpec& message : kMessages) {
     out << "CM_ BO_ " << message.id << " \"" << message.comment << "\";\n";
     for (const Signal& signal : message.signals) {
-      if (signal.comment.empty()) continue;
       out << "CM_ SG_ " << message.id << ' ' << signal.name << " \"" << signal.comment << "\";\n";
     }
   }

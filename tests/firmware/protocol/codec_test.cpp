@@ -199,3 +199,18 @@ TEST_CASE("Orders keep their meaning on the wire") {
   CHECK(order.frequency_Hz == Approx(0.45f).margin(0.5e-3));
   CHECK(order.counter == 255);
 }
+
+TEST_CASE("A flag is read as set from any code but zero") {
+  for (const std::uint32_t code : {0u, 1u, 2u, 128u, 255u}) {
+    CanFrame toe = encode(FootToe{});
+    CanFrame ground = encode(FootGround{});
+    set_raw(toe, kFootToeSignals[4], code);
+    set_raw(ground, kFootGroundSignals[4], code);
+    FootToe toe_read;
+    FootGround ground_read;
+    REQUIRE(decode(toe, toe_read) == DecodeResult::kOk);
+    REQUIRE(decode(ground, ground_read) == DecodeResult::kOk);
+    CHECK(toe_read.moving == (code != 0));
+    CHECK(ground_read.contact == (code != 0));
+  }
+}

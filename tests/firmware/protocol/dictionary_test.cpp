@@ -71,6 +71,17 @@ TEST_CASE("Messages with a CRC name it as their last byte") {
   }
 }
 
+TEST_CASE("Every message and signal says what it is") {
+  for (const MessageSpec& message : kMessages) {
+    INFO(message.name);
+    CHECK_FALSE(message.comment.empty());
+    for (const Signal& signal : message.signals) {
+      INFO(signal.name);
+      CHECK_FALSE(signal.comment.empty());
+    }
+  }
+}
+
 TEST_CASE("Every message can come as often as it is cycled") {
   for (const MessageSpec& message : kMessages) {
     INFO(message.name);
