@@ -31,6 +31,7 @@ Plant::Plant(std::unique_ptr<Rig> rig, const DriveSet& drives, std::unique_ptr<T
     motions_.push_back({pose, pose});
   }
   wrenches_.resize(motions_.size());
+  before_.resize(motions_.size());
 }
 
 Drive* Plant::drive(Joint joint) {
@@ -68,19 +69,32 @@ void Plant::step_drives() {
   }
 }
 
+/// The ground's wrench for the interval to come. The mean of the last interval belongs to its middle;
+/// used as it stands it would reach the rig one interval late and act like a damper of -k h / 2,
+/// which makes energy. Carried on to the end of the last interval along the line through the last two
+/// means it is as prompt as that of a ground that answers at the end; sums over time stay the same.
+Wrench Plant::prompt_wrench(std::size_t body) const {
+  const Wrench& now = wrenches_[body];
+  if (terrain_->wrench_time() == WrenchTime::kEndOfInterval) return now;
+  const Wrench& before = before_[body];
+  return {1.5 * now.f_W_N - 0.5 * before.f_W_N,
+          1.5 * now.tau_Bo_W_Nm - 0.5 * before.tau_Bo_W_Nm};
+}
+
 void Plant::step_rig() {
   for (std::size_t body = 0; body < motions_.size(); ++body) {
-    rig_->apply_wrench(static_cast<int>(body), wrenches_[body]);
+    rig_->apply_wrench(static_cast<int>(body), prompt_wrench(body));
   }
   rig_->step(settings_.exchange_s);
   for (std::size_t body = 0; body < motions_.size(); ++body) {
     BodyMotion& motion = motions_[body];
     const BodyMotion before = motion;
+    const Wrench wrench = prompt_wrench(body);
     motion = {before.end, rig_->pose(static_cast<int>(body))};
     // A force held for a step changes the velocity from that of the way before to that of the way
     // now; the energy it gives is force times the mean of both.
     exchange_energy_.work_on_rig_J +=
-        0.5 * (work_J(wrenches_[body], before) + work_J(wrenches_[body], motion));
+        0.5 * (work_J(wrench, before) + work_J(wrench, motion));
   }
 }
 
@@ -89,6 +103,7 @@ void Plant::step_terrain() {
     asleep_ = lowest_point_m() > terrain_->surface_height_m() + settings_.sleep_margin_m;
     if (asleep_) return;
   }
+  before_ = wrenches_;
   terrain_->advance(settings_.exchange_s, motions_, wrenches_);
   exchange_energy_.work_by_terrain_J = terrain_->work_on_bodies_J();
   touched_ = touched_ || std::any_of(wrenches_.begin(), wrenches_.end(), [](const Wrench& wrench) {

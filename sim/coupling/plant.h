@@ -16,7 +16,7 @@ namespace hoof::sim {
 
 /// Energy at the exchange between rig and ground since the start, J. The ground's wrench of
 /// interval n moves the rig in interval n + 1; what the rig receives and what the ground gave
-/// differ by that lag.
+/// differ by what is left of that lag.
 struct ExchangeEnergy {
   double work_on_rig_J = 0.0;
   double work_by_terrain_J = 0.0;
@@ -70,6 +70,7 @@ class Plant {
  private:
   void step_drives();
   void step_rig();
+  Wrench prompt_wrench(std::size_t body) const;
   void step_terrain();
   double lowest_point_m() const;
   void guard() const;
@@ -80,7 +81,8 @@ class Plant {
   std::array<std::optional<Drive>, kJointCount> drives_;
   std::array<double, kJointCount> torques_Nm_{};
   std::vector<BodyMotion> motions_;
-  std::vector<Wrench> wrenches_;
+  std::vector<Wrench> wrenches_;  // of the last interval
+  std::vector<Wrench> before_;    // of the one before it
   std::int64_t intervals_ = 0;
   bool asleep_ = true;
   bool touched_ = false;

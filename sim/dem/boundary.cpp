@@ -23,6 +23,12 @@ Eigen::Quaterniond turned(const Eigen::Quaterniond& q, const Eigen::Vector3d& ro
   return Eigen::Quaterniond(Eigen::AngleAxisd(angle, rotation_rad / angle)) * q;
 }
 
+/// Middle of a triangle's bounding box: no part of it is further than half its span away.
+Eigen::Vector3d middle(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                       const Eigen::Vector3d& c) {
+  return 0.5 * (a.cwiseMin(b).cwiseMin(c) + a.cwiseMax(b).cwiseMax(c));
+}
+
 /// The image of p closest to `centre` across periodic sides.
 Eigen::Vector3d nearest_image(Eigen::Vector3d p, const Eigen::Vector3d& centre, const Domain& d) {
   for (int axis = 0; axis < 3; ++axis) {
@@ -174,7 +180,8 @@ void Boundary::list_triangles(const typename NeighbourList<Real>::Records& recor
           const std::size_t cell = cells.index(wrap(0, x), wrap(1, y), wrap(2, z));
           for (std::uint32_t place = cells.begin[cell]; place < cells.end[cell]; ++place) {
             const std::uint32_t row = cells.rows[place];
-            const Eigen::Vector3d p = nearest_image(domain.position_m(records[row]), a, domain);
+            const Eigen::Vector3d p =
+                nearest_image(domain.position_m(records[row]), middle(a, b, c), domain);
             const double near = double(records[row].radius_m) + settings_.skin_m;
             if ((p - closest_point_on_triangle(p, a, b, c)).squaredNorm() < near * near) {
               triangle_pairs_.emplace_back(row, t);
@@ -312,7 +319,7 @@ void Boundary::touch_meshes(BoundaryGrain& b, Grain& g, const Domain& domain) {
   for (std::uint32_t i = b.triangle_begin; i < b.triangle_end && count < int(found.size()); ++i) {
     const Triangle& t = triangles_[near_triangles_[i]];
     const Eigen::Vector3d &v0 = vertices_m_[t.a], &v1 = vertices_m_[t.b], &v2 = vertices_m_[t.c];
-    const Eigen::Vector3d p = nearest_image(g.p_m, v0, domain);
+    const Eigen::Vector3d p = nearest_image(g.p_m, middle(v0, v1, v2), domain);
     const Eigen::Vector3d point = closest_point_on_triangle(p, v0, v1, v2);
     const double distance = (p - point).norm();
     if (distance < g.radius_m && distance > 0) {

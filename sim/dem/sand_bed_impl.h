@@ -48,7 +48,7 @@ struct SandBed::ImplOf final : SandBed::Impl {
   double kinetic_energy_J() const override;
   Eigen::Vector3d momentum_kg_m_s() const override;
   std::uint64_t state_hash() const override;
-  void mesh_added() override { boundary_travel_m = settings.skin_m; }
+  void mesh_added() override { boundary_travel_m = 2 * settings.skin_m; }  // not listed yet
 
  private:
   StepArguments<Real> arguments();

@@ -19,7 +19,7 @@ constexpr double kBox_foot = 5;
 
 std::string line(const char* claim, const char* what, double ratio, double bound) {
   char text[240];
-  std::snprintf(text, sizeof text, "%s: %s is %.2g, needs %.2g", claim, what, ratio, bound);
+  std::snprintf(text, sizeof text, "%s: %s is %.3g, needs %.3g", claim, what, ratio, bound);
   return text;
 }
 

@@ -33,6 +33,12 @@ Sinkage::Sinkage(const SinkageSettings& settings, std::unique_ptr<Plant> plant)
     : Experiment(std::move(plant)),
       settings_(settings),
       rig_(dynamic_cast<SinkageRig&>(this->plant().rig())) {
+  for (int body = 0; body < rig_.body_count(); ++body) {
+    const double lift_m = rig_.pose(body).p_WB_m.z() - sole_z_m();
+    for (const Eigen::Vector3d& v : rig_.mesh(body).vertices_m) {
+      below_sole_m_ = std::max(below_sole_m_, -(v.z() + lift_m));
+    }
+  }
   rig_.hold();
 }
 

@@ -34,6 +34,9 @@ class Sinkage final : public Experiment {
 
   bool rested() const { return rested_; }
   double max_depth_m() const { return max_depth_m_; }
+  /// How far the sole itself went below the height of first contact: without the spines, which
+  /// touch before it. Negative while it stands above.
+  double max_sole_depth_m() const { return max_depth_m_ - below_sole_m_; }
   double final_depth_m() const { return depth_m(); }
 
  protected:
@@ -45,6 +48,7 @@ class Sinkage final : public Experiment {
 
   SinkageSettings settings_;
   SinkageRig& rig_;
+  double below_sole_m_ = 0;  // lowest point of the foot under its sole
   double lowered_from_m_ = 0;
   double contact_z_m_ = 0;
   double contact_time_s_ = 0;

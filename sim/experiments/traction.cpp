@@ -10,8 +10,8 @@ namespace {
 // The foot has left the sand when nothing has touched it for this long: between two grains it may
 // be free for some milliseconds.
 constexpr double kLeft_s = 0.05;
-// A grain or two that ride along between the toes weigh up to 0.2 N (a 23 mm grain is 0.17 N); a foot
-// that stands in sand feels tens of newtons.
+// A grain or two that ride along between the toes weigh up to 0.2 N (a 23 mm grain is 0.17 N); a
+// foot that stands in sand feels tens of newtons.
 constexpr double kFree_N = 2;
 // A prescribed foot gathers speed over this share of a turn, above the sand.
 constexpr double kRunUp_turns = 0.1;

@@ -195,14 +195,15 @@ BedState make_bed(const BedSettings& bed, const Materials& materials, std::uint6
   BedState state;
   state.grains = rain(bed, column_m, seed);
 
-  // Little friction while they fall and pack; a medium that takes the speed of a long fall away.
+  // Friction as set for packing while they fall; a medium takes the speed of a long fall away.
   const double fall_s = std::sqrt(2 * (column_m - bed.depth_m) / 9.81);
   {
     DemSettings falling = settings;
     falling.grain_grain.static_friction = bed.packing_friction;
     falling.grain_wall.static_friction = bed.packing_friction;
-    falling.grain_grain.rolling_friction = 0;
-    falling.grain_wall.rolling_friction = 0;
+    falling.grain_grain.rolling_friction = bed.packing_rolling_friction;
+    falling.grain_wall.rolling_friction =
+        std::min(bed.packing_rolling_friction, settings.grain_wall.rolling_friction);
     falling.viscous_rate_1_s = 5;
     SandBed sand(falling, state);
     run(sand, 1.3 * fall_s, 0.0, 0.5, progress);

@@ -85,6 +85,7 @@ BedSettings read_bed(Reader section) {
   section.integer("steps_per_ms", bed.steps_per_ms, 10, 100000);
   section.number("skin_um", bed.skin_m, kMicrometre, 1, 20000);
   section.number("packing_friction", bed.packing_friction, kUnitless, 0, 5);
+  section.number("packing_rolling_friction", bed.packing_rolling_friction, kUnitless, 0, 5);
   section.number("overfill_ratio", bed.overfill, kUnitless, 1, 2);
   section.choice("coulomb_cap", cap, {"total", "elastic"});
   section.choice("rolling_law", rolling, {"own_spin", "relative_spin"});

@@ -28,7 +28,9 @@ struct BedSettings {
   double grain_scale = 1;  // diameters of the table times this
   int steps_per_ms = 360;
   double skin_m = 2e-4;
-  double packing_friction = 0.15;  // mu_s while the grains rain down
+  // mu_s and mu_r while the grains rain down: the less, the denser the bed.
+  double packing_friction = 0.52;
+  double packing_rolling_friction = 0;
   double overfill = 1.08;          // solids poured over solids of the levelled bed
   CoulombCap coulomb_cap = CoulombCap::kTotalNormal;
   RollingLaw rolling_law = RollingLaw::kOwnSpin;

@@ -10,7 +10,7 @@ namespace {
 
 // Raised whenever the same settings would give another bed: a change of the recipe in bed_maker.cpp
 // or of what a step of the engine computes.
-constexpr int kRecipe = 1;
+constexpr int kRecipe = 2;
 
 std::string text(double value) {
   return to_text(Value(value));
@@ -30,6 +30,7 @@ std::string BedStore::key(const BedSettings& bed, const Materials& materials, st
   }
   add("scale", bed.grain_scale), add("steps_per_ms", bed.steps_per_ms);
   add("skin_m", bed.skin_m), add("packing_friction", bed.packing_friction);
+  add("packing_rolling", bed.packing_rolling_friction);
   add("overfill", bed.overfill), add("cap", int(bed.coulomb_cap));
   add("rolling", int(bed.rolling_law)), add("precision", int(bed.precision));
   for (const Material* m : {&materials.sand, &materials.abs}) {

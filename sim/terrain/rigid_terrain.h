@@ -37,6 +37,7 @@ class RigidTerrain final : public Terrain {
   int add_body(const TriangleMesh& mesh, const Pose& pose) override;
   void advance(double interval_s, std::span<const BodyMotion> motions,
                std::span<Wrench> wrenches) override;
+  WrenchTime wrench_time() const override { return WrenchTime::kEndOfInterval; }
   double surface_height_m() const override { return settings_.surface_height_m; }
   double work_on_bodies_J() const override { return work_J_; }
 

@@ -21,19 +21,23 @@ struct BodyMotion {
   Pose end;
 };
 
-/// Force and torque of the terrain on a body, world frame, torque about the body's origin p_WB at
-/// the END of the interval. Mean over the interval.
+/// Force and torque of the terrain on a body, world frame, torque about the body's origin p_WB.
 struct Wrench {
   Eigen::Vector3d f_W_N = Eigen::Vector3d::Zero();
   Eigen::Vector3d tau_Bo_W_Nm = Eigen::Vector3d::Zero();
 };
 
+/// What an interval's wrench stands for. A ground that is itself stepped gives the mean over the
+/// interval, half an interval older than one that answers at its end.
+enum class WrenchTime { kMeanOverInterval, kEndOfInterval };
+
 class Terrain {
  public:
   virtual ~Terrain() = default;
 
+  virtual WrenchTime wrench_time() const { return WrenchTime::kMeanOverInterval; }
+
   /// Adds a body; its index is the number of bodies before. Call before the first advance.
-  /// @param material index of the contact pair (see the terrain's own settings)
   virtual int add_body(const TriangleMesh& mesh, const Pose& pose) = 0;
 
   /// Advances the ground by `interval_s` while body i moves as motions[i] says.

@@ -154,10 +154,12 @@ class Run {
     const auto mm = [&](const char* key) { return r.at(key).get<double>() * 1e3; };
     const auto deg = [&](const char* key) { return r.at(key).get<double>() * 57.29577951308232; };
     if (run_.is_sinkage()) {
-      std::printf("%s foot, %.1f N, %.2g m/s: sank %.2f mm (at rest %.2f mm)%s\n",
-                  run_.foot_name.c_str(), run_.sinkage.load_N, run_.sinkage.speed_m_s,
-                  mm("max_depth_m"), mm("final_depth_m"),
-                  r.at("rested").get<bool>() ? "" : ", not yet at rest");
+      std::printf(
+          "%s foot, %.1f N, %.2g m/s: sank %.2f mm (at rest %.2f mm), the sole %.2f mm below first "
+          "contact%s\n",
+          run_.foot_name.c_str(), run_.sinkage.load_N, run_.sinkage.speed_m_s, mm("max_depth_m"),
+          mm("final_depth_m"), mm("max_sole_depth_m"),
+          r.at("rested").get<bool>() ? "" : ", not yet at rest");
     } else {
       std::printf(
           "%s foot, %.3g Hz: Fx peak %.1f N, Fz there %.1f N, traction coefficient %.3f, "

@@ -107,6 +107,7 @@ Json summarise(const RunSettings& run, const sim::Experiment& experiment,
     j["load_N"] = run.sinkage.load_N;
     j["max_depth_m"] = depth;
     j["final_depth_m"] = sinkage->final_depth_m();
+    j["max_sole_depth_m"] = sinkage->max_sole_depth_m();
     j["rested"] = sinkage->rested();
   } else if (const auto* traction = dynamic_cast<const sim::Traction*>(&experiment)) {
     depth = traction->max_depth_m();

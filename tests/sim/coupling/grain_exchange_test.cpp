@@ -99,13 +99,11 @@ TEST_CASE("halving the exchange on grains changes the deepest point by less than
   CAPTURE(whole.max_depth_m, half.max_depth_m, whole.work_J, whole.error_J, half.error_J);
   CHECK(whole.max_depth_m > 0.5e-3);
   CHECK(half.max_depth_m == Approx(whole.max_depth_m).epsilon(0.01));
-  // The ground's force reaches the rig half an interval late, which acts like a damper of
-  // -k h / 2 (plant_test.cpp): it makes energy, in proportion to the interval. Measured 2 to 4 % of
-  // the work at 50 us.
+  // The plant makes up for the age of the ground's mean force; without that 2 to 4 % of the work
+  // were made anew, and at 100 N the depth changed by up to 2.9 %.
   CHECK(whole.work_J < 0);
-  CHECK(whole.error_J > 0);
-  CHECK(whole.error_J < 0.05 * -whole.work_J);
-  CHECK(half.error_J == Approx(whole.error_J / 2).epsilon(0.1));
+  CHECK(std::abs(whole.error_J) < 0.002 * -whole.work_J);
+  CHECK(std::abs(half.error_J) < 0.002 * -half.work_J);
 }
 
 TEST_CASE("halving the exchange on grains changes the traction coefficient by less than 1 %") {

@@ -162,3 +162,16 @@ TEST_CASE("a moving box gives a grain its speed and does the work for it") {
     CHECK(bed.take_load(box).impulse_W_Ns.norm() == 0);  // taken
   }
 }
+
+TEST_CASE("a mesh acts from the first step, also on grains at rest") {
+  for (const int sign : {-1, 1}) {
+    DemSettings s = paper_settings();
+    BedState start;
+    const double h = 0.01;
+    start.grains = {grain_at(0, kDiameter_m, {0, 0, sign * (h + kDiameter_m / 2 - 1e-6)})};
+    SandBed bed(s, start);
+    bed.add_mesh(box_mesh({h, h, h}), Eigen::Vector3d::Zero(), Eigen::Quaterniond::Identity());
+    bed.advance(1);
+    CHECK(sign * bed.state().grains[0].v_m_s.z() > 0);
+  }
+}

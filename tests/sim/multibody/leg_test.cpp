@@ -24,7 +24,8 @@ TEST_CASE("inverse and forward kinematics agree on the whole ellipse") {
 }
 
 TEST_CASE("the sole is level at the deepest point and pitches -16 to +7 degrees in stance") {
-  const Leg leg = shipped_leg();
+  Leg leg = shipped_leg();
+  leg.level_sole_z_m = -0.035;  // the deepest point of the reference's ellipse, 40 mm about 5 mm
   const auto pitch_deg = [&leg](double x, double z) {
     return forward_kinematics(leg, inverse_kinematics(leg, x, z)).pitch_rad * 180.0 /
            std::numbers::pi;

@@ -25,6 +25,7 @@ grain_scale_ratio = 1.0
 steps_per_ms = 360
 skin_um = 200
 packing_friction = 0.3
+packing_rolling_friction = 0
 overfill_ratio = 1.08
 coulomb_cap = "total"
 rolling_law = "own_spin"
@@ -103,7 +104,7 @@ TEST_CASE("a wrong bed is refused in one line with file, line, key, value and bo
       {"skin_um = 200", "skin_um = -1",
        "bed.toml:11:1: bed.skin_um = -1: must be a number from 1.0 to 20000.0 um"},
       {"overfill_ratio = 1.08", "overfill_ratio = 0.9",
-       "bed.toml:13:1: bed.overfill_ratio = 0.9: must be a number from 1.0 to 2.0"},
+       "bed.toml:14:1: bed.overfill_ratio = 0.9: must be a number from 1.0 to 2.0"},
       {"steps_per_ms = 360", "steps_per_ms = 360.5",
        "bed.toml:10:1: bed.steps_per_ms = 360.5: must be a whole number from 10 to 100000"},
       {"\"walls\"", "\"open\"",
