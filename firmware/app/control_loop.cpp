@@ -79,7 +79,11 @@ void ControlLoop::watch_sync(std::int64_t now_ns) {
 void ControlLoop::read(std::int64_t now_ns) {
   inbox_.drain(*buses_[1], 1, now_ns);
   inbox_.drain(*buses_[0], 0, now_ns);
-  if (inbox_.take_emergency_stop()) emergency_stop();
+  if (!inbox_.take_emergency_stop()) return;
+  emergency_stop();
+  // Orders that came with it were given before anyone could know: a reset among them must not undo
+  // the stop. Unanswered, they are sent again.
+  while (inbox_.take_order()) ++counters_.refused_orders;
 }
 
 void ControlLoop::answer_orders(std::int64_t now_ns) {

@@ -99,7 +99,9 @@ void LoopWatch::after(const ControlLoop& loop) {
 void LoopWatch::check_modes(const ControlLoop& loop) {
   const Mode mode = loop.mode();
   if (heard_.emergency_stop) emergency_ = true;
-  if (heard_.reset) emergency_ = emergency_ && mode == Mode::kEmergencyOff;
+  // A reset in the very poll of the stop was given before anyone could know of it.
+  const bool reset = heard_.reset && !heard_.emergency_stop;
+  if (reset) emergency_ = emergency_ && mode == Mode::kEmergencyOff;
   if (emergency_) {
     require(mode == Mode::kEmergencyOff, "an emergency stop holds until a reset order");
     require((loop.faults() & fault::kEmergencyStop) != 0, "an emergency stop is reported");
