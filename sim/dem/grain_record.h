@@ -4,7 +4,8 @@
 // fixed point, the whole domain being 2^32 steps wide: differences are exact, periodic wrap is free
 // and the precision does not fall with the distance from the origin. Two buffers: a step reads one
 // and writes the other, so no grain sees a half-updated neighbour and any number of threads gives
-// the same bytes. Measured against other layouts; see the README's DEM section.
+// the same bytes. Records beat separate arrays because a neighbour's
+// data then come with one miss.
 #pragma once
 
 #include <cstdint>

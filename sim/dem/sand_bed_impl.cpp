@@ -242,8 +242,8 @@ void SandBed::ImplOf<Real>::check(double fastest_m_s) {
   health.fastest_m_s = fastest_m_s;
   ++health.steps;
   health.time_s = double(health.steps) * settings.dt_s;
-  // A grain that crosses a tenth of the smallest useful overlap scale, its own radius, in one step
-  // is no longer resolved; sand under a foot moves at metres per second at most.
+  // A grain that crosses a tenth of the largest grain's radius in one step is no longer resolved;
+  // sand under a foot moves at metres per second at most.
   const double limit_m_s = 0.1 * largest_radius_m / settings.dt_s;
   if (!(fastest_m_s < limit_m_s)) {
     throw std::runtime_error(

@@ -111,12 +111,12 @@ TEST_CASE("on the same bed the bionic foot sinks less, its toes held within half
   const Strings set = {"experiment.time_limit_s=0.2"};
   const Run bionic({"sinkage", "--load", "60", "--threads", "1"}, set);
   const Run plain({"sinkage", "--load", "60", "--threads", "1", "--foot", "traditional"}, set);
-  // Measured: 22.0 and 48.6 mm.
+  // Measured: 24.0 and 62.9 mm.
   CHECK(bionic.result("max_depth_m") > 5e-3);
   CHECK(bionic.result("max_depth_m") < 0.7 * plain.result("max_depth_m"));
   CHECK(std::abs(bionic.result("toe_reached_rad") - bionic.result("toe_command_rad")) <
         0.5 * kDegree_rad);
-  CHECK(bionic.result("toe_deflection_rad") < 0.5 * kDegree_rad);  // measured: 0.42
+  CHECK(bionic.result("toe_deflection_rad") < 0.5 * kDegree_rad);  // measured: 0.40
 }
 
 TEST_CASE("the toes are held by control: half the gain gives way twice as far, none by degrees") {
