@@ -1,17 +1,15 @@
 #include "sim/terrain/checkpoint_file.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cerrno>
 #include <charconv>
 #include <cstddef>
 #include <cstring>
 #include <stdexcept>
 #include <system_error>
+
+#include "sim/terrain/disk_file.h"
 
 namespace hoof::sim {
 namespace fs = std::filesystem;
@@ -46,60 +44,14 @@ std::uint64_t body_checksum(std::string_view key, std::string_view payload) {
   return checksum64(payload, checksum64(key));
 }
 
-/// An open file that closes itself; every failure is an std::system_error.
-class Descriptor {
- public:
-  Descriptor(const fs::path& path, int flags) : fd_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {
-    if (fd_ < 0) fail();
-  }
-  ~Descriptor() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-
-  void write(const void* bytes, std::size_t size) {
-    const char* from = static_cast<const char*>(bytes);
-    while (size > 0) {
-      const ssize_t n = ::write(fd_, from, size);
-      if (n < 0 && errno == EINTR) continue;
-      if (n < 0) fail();
-      from += n, size -= std::size_t(n);
-    }
-  }
-
-  /// @return the bytes there were, fewer than size at the end of the file
-  std::size_t read(void* bytes, std::size_t size) {
-    char* const to = static_cast<char*>(bytes);
-    std::size_t got = 0;
-    while (got < size) {
-      const ssize_t n = ::read(fd_, to + got, size - got);
-      if (n < 0 && errno == EINTR) continue;
-      if (n < 0) fail();
-      if (n == 0) break;
-      got += std::size_t(n);
-    }
-    return got;
-  }
-
-  void sync() {
-    if (::fsync(fd_) != 0) fail();
-  }
-
- private:
-  [[noreturn]] static void fail() { throw std::system_error(errno, std::generic_category()); }
-
-  int fd_;
-};
-
 /// @return the checkpoint, or why it is none, in `reason`
 std::optional<Checkpoint> read_checkpoint(const fs::path& path, const std::string& key,
-                                          std::string& reason) {
+                                          std::uint64_t up_to_step, std::string& reason) {
   const auto refuse = [&reason](const char* why) {
     reason = why;
     return std::nullopt;
   };
-  Descriptor file(path, O_RDONLY);
+  DiskFile file(path, DiskFile::Mode::kRead);
   Header header;
   const std::size_t got = file.read(&header, sizeof header);
   const std::size_t magic = std::min(got, kMagic.size());
@@ -125,6 +77,7 @@ std::optional<Checkpoint> read_checkpoint(const fs::path& path, const std::strin
     return refuse("is damaged: its checksum does not match");
   }
   if (found_key != key) return refuse("was made from other settings");
+  if (header.step > up_to_step) return refuse("is further on than the journal beside it");
   return checkpoint;
 }
 
@@ -204,14 +157,14 @@ void CheckpointFiles::write(std::uint64_t step, double time_s, std::string_view 
   header.checksum = header.right_checksum();
   try {
     {
-      Descriptor file(temporary, O_WRONLY | O_CREAT | O_TRUNC);
-      file.write(&header, sizeof header);
-      file.write(key_.data(), key_.size());
-      file.write(payload.data(), payload.size());
+      DiskFile file(temporary, DiskFile::Mode::kCreate);
+      file.write({reinterpret_cast<const char*>(&header), sizeof header});
+      file.write(key_);
+      file.write(payload);
       file.sync();
     }
     fs::rename(temporary, path);
-    Descriptor(folder_, O_RDONLY | O_DIRECTORY).sync();  // the new name too
+    sync_folder(folder_);
   } catch (const std::system_error& error) {
     std::error_code ignored;
     fs::remove(temporary, ignored);
@@ -224,12 +177,12 @@ void CheckpointFiles::write(std::uint64_t step, double time_s, std::string_view 
   good_ = number;
 }
 
-CheckpointSearch CheckpointFiles::read_newest() {
+CheckpointSearch CheckpointFiles::read_newest(std::uint64_t up_to_step) {
   CheckpointSearch search;
   for (const std::uint64_t number : numbers_in(folder_)) {
     std::string reason;
     try {
-      search.found = read_checkpoint(path_of(number), key_, reason);
+      search.found = read_checkpoint(path_of(number), key_, up_to_step, reason);
     } catch (const std::system_error& error) {
       reason = "cannot be read: " + error.code().message();
     }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -43,7 +44,9 @@ class CheckpointFiles {
   void write(std::uint64_t step, double time_s, std::string_view payload);
 
   /// Tries the newest, then the one before, and so on. Never throws for a bad file.
-  CheckpointSearch read_newest();
+  /// @param up_to_step those of later steps are refused, too
+  CheckpointSearch read_newest(
+      std::uint64_t up_to_step = std::numeric_limits<std::uint64_t>::max());
 
   /// Removes all checkpoints, and the folder where nothing else is in it.
   void remove();
