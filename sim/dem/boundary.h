@@ -1,7 +1,9 @@
 // Walls and moving triangle meshes: what the grains touch besides each other.
 //
-// Only grains near a wall or a mesh take part ("boundary grains"); they are few, so their contacts
-// are computed in double whatever the precision of the step.
+// Few grains do. They are found in two stages: candidates, near enough to be worth watching, by a
+// pass over the whole bed that is seldom needed; and from these, often, the grains that a small
+// skin lets touch. Both stages know how far grains and meshes can have moved and renew themselves.
+// The contacts are few too, so they are computed in double whatever the precision of the step.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,11 +12,13 @@
 #include <cstdint>
 #include <vector>
 
+#include "sim/dem/aligned_allocator.h"
 #include "sim/dem/contact_law.h"
 #include "sim/dem/domain.h"
 #include "sim/dem/grain_record.h"
-#include "sim/dem/neighbour_list.h"
+#include "sim/dem/mesh_surface.h"
 #include "sim/dem/triangle_mesh.h"
+#include "sim/dem/vec3.h"
 
 namespace hoof::sim {
 
@@ -47,9 +51,12 @@ struct BoundarySettings {
   double skin_m = 0;  // how far beyond touch a grain is looked for
 };
 
+/// A step is: prepare, compute (from several threads at once, each its own groups), advance.
 class Boundary {
  public:
   static constexpr int kMaxMeshes = 4;
+  template <typename Real>
+  using Forces = std::vector<BoundaryForce<Real>, AlignedAllocator<BoundaryForce<Real>>>;
 
   explicit Boundary(BoundarySettings settings) : settings_(std::move(settings)) {}
 
@@ -61,28 +68,26 @@ class Boundary {
   /// Begins an interval in which mesh i moves as motion says.
   void set_motion(int mesh, const MeshMotion& motion);
 
-  /// Puts the meshes where they are `time_s` after the start of the interval.
-  void place_meshes(double time_s);
-
-  /// Largest speed of any vertex, m/s.
-  double fastest_vertex_m_s() const;
-
-  /// Finds the boundary grains anew. The loads gathered so far are kept.
+  /// Puts the meshes where they are `time_s` after the start of the interval, and makes the lists
+  /// anew where grains or meshes have moved too far for them. The records hold `count` grains,
+  /// always the same ones.
   template <typename Real>
-  void rebuild(const typename NeighbourList<Real>::Records& records, std::uint32_t count,
-               const CellGrid& cells, const Domain& domain, double largest_radius_m,
-               double grain_drift_m);
+  void prepare(const GrainRecord<Real>* records, std::uint32_t count, const Domain& domain,
+               double time_s);
 
-  /// Rows have a new order: old_row[new] = old. To be followed by rebuild.
-  void reorder(const std::vector<std::uint32_t>& old_row);
-
-  /// Forces on the boundary grains of the groups [begin, end). Meshes must be placed.
+  /// Forces on the boundary grains of the groups [begin, end).
   template <typename Real>
   void compute(const GrainRecord<Real>* records, const Domain& domain, double dt_s,
                std::uint32_t group_begin, std::uint32_t group_end);
 
+  /// To be called after the grains have moved: none by more than this.
+  void advance(double furthest_m);
+
+  /// Rows have a new order: old_row[new] = old.
+  void reorder(const std::vector<std::uint32_t>& old_row);
+
   template <typename Real>
-  const std::vector<BoundaryForce<Real>, AlignedAllocator<BoundaryForce<Real>>>& forces() const;
+  const Forces<Real>& forces() const;
   const std::vector<std::int32_t>& force_of_group() const { return force_of_group_; }
 
   /// Load on mesh i since the last take; sums in row order, so independent of the threads.
@@ -92,76 +97,125 @@ class Boundary {
   bool wall_history(std::uint32_t row, int wall, Eigen::Vector3d& xi_m) const;
   void set_wall_history(std::uint32_t row, int wall, const Eigen::Vector3d& xi_m);
 
-  /// Largest overlap over grain radius seen since the last call, and the grain that had it.
+  /// Largest overlap with a mesh over grain radius seen since the last call.
   double take_deepest_ratio();
 
  private:
-  static constexpr int kMaxContacts = 8;
+  static constexpr int kMaxContacts = 8;  // with meshes, of one grain, that are remembered
 
+  struct Pose {
+    Eigen::Vector3d origin_m = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d R_WB = Eigen::Matrix3d::Identity();
+  };
   struct Mesh {
-    TriangleMesh mesh;
-    std::uint32_t first_vertex = 0;  // in vertices_
-    double radius_m = 0;             // of the vertices about the origin
+    MeshSurface surface;
     MeshMotion motion;
-    Eigen::Vector3d origin_m = Eigen::Vector3d::Zero();  // now
-    MeshLoad load;                                       // flushed part
+    Pose now, at_search, at_listing;
+    MeshLoad load;  // of contacts that are listed no longer
   };
-  struct Triangle {
-    std::int32_t mesh;
-    std::uint32_t a, b, c;  // in vertices_
+  struct Position {  // fixed point, as in the records
+    std::int32_t x, y, z;
   };
-  struct Memory {          // one contact of the last step
-    std::int32_t partner;  // wall w: -1 - w; mesh m: m
-    Eigen::Vector3d n, xi_m;
+  template <typename Real>
+  static Eigen::Vector3d moved_m(const GrainRecord<Real>& r, const Position& since,
+                                 const Domain& domain) {
+    const auto steps = [](std::int32_t now, std::int32_t then) {  // wraps where the domain does
+      return double(std::int32_t(std::uint32_t(now) - std::uint32_t(then)));
+    };
+    return domain.lsb_m.cwiseProduct(
+        Eigen::Vector3d(steps(r.x, since.x), steps(r.y, since.y), steps(r.z, since.z)));
+  }
+  struct Candidate {
+    std::uint32_t row;
+    std::uint32_t walls, meshes;  // a bit each
+    Position listed_at;
   };
-  struct BoundaryGrain {
-    std::uint32_t row = 0;
-    std::uint32_t walls = 0;  // bit per wall within reach
-    std::uint32_t triangle_begin = 0, triangle_end = 0;
-    std::int32_t load = -1;  // index of its loads, if it is near a mesh
-    int contacts = 0;
-    std::array<Memory, kMaxContacts> memory;
+  struct NearGrain {
+    std::uint32_t row;
+    std::uint32_t wall_begin, wall_end;    // in wall_contacts_
+    std::uint32_t patch_begin, patch_end;  // in patches_
+    std::int32_t memory;                   // in memories_, if it has patches
+    std::int32_t force;                    // in forces
+    Position listed_at;
+  };
+  struct WallContact {
+    std::int32_t wall;
+    std::int32_t touching;
+    Vec3<double> xi_m;
   };
   struct Load {
-    std::array<MeshLoad, kMaxMeshes> of_mesh;
-    double deepest_ratio = 0;
+    Vec3<double> impulse_Ns, angular_impulse_Nms;
+    double work_J;
+    double deepest_ratio;
   };
-  struct Found {
-    double distance_m;
-    Eigen::Vector3d point_m;
-    std::int32_t mesh;
+  struct Patch {  // triangles of one mesh near one grain
+    std::uint32_t mesh;
+    std::uint32_t facet_begin, facet_end;  // in near_facets_
+    Vec3<double> p_m;                      // the grain's image near the mesh, when listed
+    Load load;
+  };
+  struct MeshContact {
+    std::uint32_t mesh;
+    std::uint32_t inner;  // the grain belongs inside the body
+    Vec3<double> n, xi_m;
+  };
+  struct Memory {  // a grain's mesh contacts of the last step
+    std::int32_t count;
+    std::array<MeshContact, kMaxContacts> contacts;
   };
   struct Grain;  // one grain's state and sums while it is worked on
 
+  // boundary_lists.cpp
+  static Eigen::AlignedBox3d world_box(const Mesh& m);
+  double mesh_travel_m(Pose Mesh::*since) const;
   template <typename Real>
-  void list_walls(const typename NeighbourList<Real>::Records& records, std::uint32_t count,
-                  const Domain& domain);
+  void search(const GrainRecord<Real>* records, std::uint32_t count, const Domain& domain);
   template <typename Real>
-  void list_triangles(const typename NeighbourList<Real>::Records& records, const CellGrid& cells,
-                      const Domain& domain, double largest_radius_m, double grain_drift_m);
-  void merge_lists(std::uint32_t group_count);
+  void list(const GrainRecord<Real>* records, std::uint32_t count, const Domain& domain);
+  template <typename Real>
+  double furthest_candidate_m(const GrainRecord<Real>* records, const Domain& domain) const;
+  void append_walls(std::uint32_t walls, const Eigen::Vector3d& p_m, double reach_m);
+  void append_patches(std::uint32_t meshes, const Eigen::Vector3d& p_m, double reach_m,
+                      const Domain& domain);
   void carry_memory();
+  template <typename Real>
+  void number_forces(std::uint32_t count);
   void flush_loads();
-  void touch_walls(BoundaryGrain& b, Grain& g);
-  void touch_meshes(BoundaryGrain& b, Grain& g, const Domain& domain);
-  void touch_point(const BoundaryGrain& b, std::int32_t partner, const Eigen::Vector3d& n,
-                   double delta_m, const Eigen::Vector3d& v_point_m_s, Grain& g);
-  Eigen::Vector3d remembered(const BoundaryGrain& b, std::int32_t partner,
-                             const Eigen::Vector3d& n) const;
+
+  // boundary.cpp
+  void place_meshes(double time_s);
+  void touch_walls(const NearGrain& b, Grain& g);
+  void touch_meshes(const NearGrain& b, Grain& g, std::vector<MeshSpot>& spots);
+  void touch_spots(Patch& patch, const Memory& before, const std::vector<MeshSpot>& spots,
+                   bool inner, Grain& g, Memory& memory) const;
+  static bool is_inner(const Memory& before, std::uint32_t mesh,
+                       const std::vector<MeshSpot>& spots);
+  static Vec3<double> remembered(const Memory& before, std::uint32_t mesh, const Vec3<double>& n);
+  Vec3<double> push(Grain& g, const Vec3<double>& n, double delta_m,
+                    const Vec3<double>& v_point_m_s, Vec3<double>& xi_m) const;
+  std::ptrdiff_t find_wall_contact(std::uint32_t row, int wall) const;
+  template <typename Real>
+  Forces<Real>& forces_of() {
+    return const_cast<Forces<Real>&>(forces<Real>());
+  }
 
   BoundarySettings settings_;
   std::vector<Mesh> meshes_;
-  std::vector<Triangle> triangles_;
-  std::vector<Eigen::Vector3d> vertices_m_;  // world, now
-  std::vector<BoundaryGrain> grains_, old_grains_;
-  std::vector<std::uint32_t> grain_begin_;  // per group: first of its boundary grains
-  std::vector<std::uint32_t> near_triangles_;
-  std::vector<Load> loads_;
+
+  bool searched_ = false, listed_ = false;
+  double travel_since_search_m_ = 0, travel_since_listing_m_ = 0;  // of the grains, at most
+  std::vector<Candidate> candidates_;                              // by row
+
+  std::vector<NearGrain> grains_, old_grains_;  // by row
+  std::vector<WallContact> wall_contacts_, old_wall_contacts_;
+  std::vector<Patch> patches_;
+  std::vector<std::uint32_t> near_facets_;
+  std::vector<Memory> memories_, old_memories_;
+  double deepest_ratio_ = 0;  // of contacts that are listed no longer
+
   std::vector<std::int32_t> force_of_group_;
-  std::vector<BoundaryForce<float>, AlignedAllocator<BoundaryForce<float>>> forces_float_;
-  std::vector<BoundaryForce<double>, AlignedAllocator<BoundaryForce<double>>> forces_double_;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> wall_pairs_, triangle_pairs_;
-  double deepest_ratio_ = 0;
+  Forces<float> forces_float_;
+  Forces<double> forces_double_;
 };
 
 }  // namespace hoof::sim

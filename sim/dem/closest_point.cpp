@@ -1,28 +1,40 @@
 #include "sim/dem/closest_point.h"
 
+#include <Eigen/Geometry>
+
 namespace hoof::sim {
 
-Eigen::Vector3d closest_point_on_triangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
-                                          const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
-  const Eigen::Vector3d ab = b - a, ac = c - a, ap = p - a;
-  const double d1 = ab.dot(ap), d2 = ac.dot(ap);
-  if (d1 <= 0 && d2 <= 0) return a;
-  const Eigen::Vector3d bp = p - b;
-  const double d3 = ab.dot(bp), d4 = ac.dot(bp);
-  if (d3 >= 0 && d4 <= d3) return b;
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + d1 / (d1 - d3) * ab;
-  const Eigen::Vector3d cp = p - c;
-  const double d5 = ab.dot(cp), d6 = ac.dot(cp);
-  if (d6 >= 0 && d5 <= d6) return c;
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + d2 / (d2 - d6) * ac;
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
-    return b + (d4 - d3) / (d4 - d3 + d5 - d6) * (c - b);
+Facet::Facet(const Eigen::Vector3d& corner_a, const Eigen::Vector3d& b, const Eigen::Vector3d& c)
+    : a(corner_a),
+      ab(b - corner_a),
+      ac(c - corner_a),
+      normal(ab.cross(ac).normalized()),
+      ab2(ab.squaredNorm()),
+      ab_ac(ab.dot(ac)),
+      ac2(ac.squaredNorm()) {}
+
+ClosestPoint closest_point(const Facet& f, const Eigen::Vector3d& p) {
+  const Eigen::Vector3d ap = p - f.a;
+  const double ab_ap = f.ab.dot(ap), ac_ap = f.ac.dot(ap);
+  if (ab_ap <= 0 && ac_ap <= 0) return {ap, FacetPart::kCornerA};
+  const double ab_bp = ab_ap - f.ab2, ac_bp = ac_ap - f.ab_ac;
+  if (ab_bp >= 0 && ac_bp <= ab_bp) return {ap - f.ab, FacetPart::kCornerB};
+  const double area_c = ab_ap * ac_bp - ab_bp * ac_ap;
+  if (area_c <= 0 && ab_ap >= 0 && ab_bp <= 0) {
+    return {ap - ab_ap / f.ab2 * f.ab, FacetPart::kEdgeAB};
   }
-  const double sum = va + vb + vc;
-  return a + vb / sum * ab + vc / sum * ac;
+  const double ab_cp = ab_ap - f.ab_ac, ac_cp = ac_ap - f.ac2;
+  if (ac_cp >= 0 && ab_cp <= ac_cp) return {ap - f.ac, FacetPart::kCornerC};
+  const double area_b = ab_cp * ac_ap - ab_ap * ac_cp;
+  if (area_b <= 0 && ac_ap >= 0 && ac_cp <= 0) {
+    return {ap - ac_ap / f.ac2 * f.ac, FacetPart::kEdgeCA};
+  }
+  const double area_a = ab_bp * ac_cp - ab_cp * ac_bp;
+  const double from_b = ac_bp - ab_bp, from_c = ab_cp - ac_cp;  // along BC
+  if (area_a <= 0 && from_b >= 0 && from_c >= 0) {
+    return {ap - f.ab - from_b / (from_b + from_c) * (f.ac - f.ab), FacetPart::kEdgeBC};
+  }
+  return {f.normal.dot(ap) * f.normal, FacetPart::kInside};
 }
 
 }  // namespace hoof::sim

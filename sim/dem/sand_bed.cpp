@@ -65,7 +65,6 @@ int SandBed::add_mesh(const TriangleMesh& mesh, const Eigen::Vector3d& p_WB_m,
                       const Eigen::Quaterniond& q_WB) {
   const int index = impl_->boundary.add_mesh(mesh);
   impl_->boundary.set_motion(index, {p_WB_m, q_WB});
-  impl_->mesh_added();
   return index;
 }
 

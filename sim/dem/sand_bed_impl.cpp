@@ -71,6 +71,7 @@ void SandBed::ImplOf<Real>::load(const BedState& state) {
   while (now.size() % kLanes != 0) now.push_back(padding);
   next = now;
   rebuild_lists();
+  boundary.prepare<Real>(now.data(), count, domain, interval_time_s);
   store_contacts(state.contacts);
 }
 
@@ -192,8 +193,7 @@ template <typename Real>
 void SandBed::ImplOf<Real>::rebuild_lists() {
   const std::vector<std::uint32_t>& old_row =
       list.rebuild(now, count, domain, largest_radius_m, settings.skin_m, team);
-  if (sorted) boundary.reorder(old_row);
-  sorted = true;
+  boundary.reorder(old_row);
   listed_at.resize(count);
   for (std::uint32_t row = 0; row < count; ++row) {
     listed_at[row] = {now[row].x, now[row].y, now[row].z};
@@ -213,15 +213,6 @@ void SandBed::ImplOf<Real>::rebuild_lists() {
   }
   grain_travel_m = 0;
   ++health.rebuilds;
-  rebuild_boundary();
-}
-
-template <typename Real>
-void SandBed::ImplOf<Real>::rebuild_boundary() {
-  boundary.place_meshes(interval_time_s);
-  boundary.rebuild<Real>(now, count, list.cells(), domain, largest_radius_m, grain_travel_m);
-  boundary_travel_m = 0;
-  grain_at_boundary_m = grain_travel_m;
 }
 
 /// Lists are good while no pair can have closed the skin. The fastest grain bounds the travel; only
@@ -234,7 +225,6 @@ void SandBed::ImplOf<Real>::rebuild_if_stale() {
     grain_travel_m = largest_displacement_m();
     if (grain_travel_m > 0.75 * margin_m) rebuild_lists();
   }
-  if (boundary_travel_m > settings.skin_m) rebuild_boundary();
 }
 
 template <typename Real>
@@ -256,7 +246,7 @@ void SandBed::ImplOf<Real>::check(double fastest_m_s) {
 template <typename Real>
 void SandBed::ImplOf<Real>::step() {
   rebuild_if_stale();
-  boundary.place_meshes(interval_time_s);
+  boundary.prepare<Real>(now.data(), count, domain, interval_time_s);
   const StepArguments<Real> a = arguments();
   std::vector<Real> fastest2(std::size_t(team.size()), Real(0));
   team.run([&](int member) {
@@ -272,7 +262,7 @@ void SandBed::ImplOf<Real>::step() {
   const double fastest = std::sqrt(largest2);
   check(fastest);
   grain_travel_m += fastest * settings.dt_s;
-  boundary_travel_m += (fastest + boundary.fastest_vertex_m_s()) * settings.dt_s;
+  boundary.advance(fastest * settings.dt_s);
   interval_time_s += settings.dt_s;
 }
 

@@ -22,7 +22,6 @@ struct SandBed::Impl {
   virtual double kinetic_energy_J() const = 0;
   virtual Eigen::Vector3d momentum_kg_m_s() const = 0;
   virtual std::uint64_t state_hash() const = 0;
-  virtual void mesh_added() = 0;
 
   DemSettings settings;
   Domain domain;
@@ -48,13 +47,11 @@ struct SandBed::ImplOf final : SandBed::Impl {
   double kinetic_energy_J() const override;
   Eigen::Vector3d momentum_kg_m_s() const override;
   std::uint64_t state_hash() const override;
-  void mesh_added() override { boundary_travel_m = 2 * settings.skin_m; }  // not listed yet
 
  private:
   StepArguments<Real> arguments();
   void rebuild_if_stale();
   void rebuild_lists();
-  void rebuild_boundary();
   double largest_displacement_m();
   void check(double fastest_m_s);
   Record to_record(const Grain& g) const;
@@ -69,11 +66,7 @@ struct SandBed::ImplOf final : SandBed::Impl {
   std::vector<std::uint32_t> part;                     // first group of each member
   PairLaw<Real> law{};
   StepKernel<Real> kernel = nullptr;
-  // No grain can have moved further than this since the lists were made.
-  double grain_travel_m = 0;       // since the last sort
-  double grain_at_boundary_m = 0;  // grain_travel_m when the boundary was listed
-  double boundary_travel_m = 0;    // grains and meshes together, since the boundary was listed
-  bool sorted = false;
+  double grain_travel_m = 0;  // no grain can have moved further since the last sort
 };
 
 }  // namespace hoof::sim

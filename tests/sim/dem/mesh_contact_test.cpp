@@ -41,7 +41,8 @@ double rebound(const Eigen::Vector3d& target, const Eigen::Vector3d& direction, 
 TEST_CASE("closest point of a triangle: face, edges, vertices") {
   const Eigen::Vector3d a(0, 0, 0), b(1, 0, 0), c(0, 1, 0);
   const auto at = [&](double x, double y, double z) {
-    return closest_point_on_triangle({x, y, z}, a, b, c);
+    const Eigen::Vector3d p(x, y, z);
+    return Eigen::Vector3d(p - closest_point(Facet(a, b, c), p).to_p_m);
   };
   CHECK(at(0.2, 0.3, 0.5).isApprox(Eigen::Vector3d(0.2, 0.3, 0)));
   CHECK(at(0.2, 0.3, -0.5).isApprox(Eigen::Vector3d(0.2, 0.3, 0)));
