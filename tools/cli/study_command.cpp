@@ -1,0 +1,88 @@
+#include <functional>
+#include <memory>
+
+#include "tools/cli/commands.h"
+#include "tools/study/study.h"
+
+namespace hoof::tools {
+namespace {
+
+using Study = void (*)(const StudyOptions&);
+
+CLI::App* add_study(CLI::App& parent, Invocation& invocation, const char* name, const char* help,
+                    Study study) {
+  auto options = std::make_shared<StudyOptions>();
+  CLI::App* command = parent.add_subcommand(name, help);
+  command->add_flag("--full", options->full, "The long form: more grain sizes, boxes and bodies");
+  command->add_option("--beds", options->bed_count, "Beds of each kind, one seed each, 1..1000")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000));
+  command->add_option("--seed", options->seed, "Seed of the first bed; the next count on")
+      ->type_name("S")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command->add_option("--scales", options->scales, "Grain diameters over the paper's, e.g. 3.6,2.1")
+      ->type_name("X,...")
+      ->delimiter(',')
+      ->check(CLI::Range(0.2, 20.0));
+  command->add_option("--threads", options->threads, "Threads of the sand solver, 1..1024")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
+  command->add_option("--out", options->out, "Folder of the study [runs/study-NAME]")
+      ->type_name("DIR");
+  command->add_option("--bed-folder", options->beds, "Where settled beds are kept")
+      ->type_name("DIR");
+  command
+      ->add_option("--set", options->settings,
+                   "Any setting of a sinkage run, e.g. --set bed.steps_per_ms=180")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command->add_flag("--quiet", options->quiet, "Show no progress");
+  command->callback(
+      [&invocation, options, study] { invocation.run = [options, study] { study(*options); }; });
+  command->footer(
+      "Finished cases are kept: after Ctrl-C the same command goes on where it was.\n"
+      "Example:\n  hoof study " +
+      std::string(name) + " --beds 5 --threads 1");
+  // For the flags that only some studies have.
+  const auto list = [&](const char* flag, auto& into, const char* text, const char* type) {
+    return command->add_option(flag, into, text)->type_name(type)->delimiter(',');
+  };
+  if (study != run_box_study) {
+    list("--lengths", options->lengths_mm, "Lengths of the box, mm", "MM,...")
+        ->check(CLI::Range(20.0, 5000.0));
+  }
+  if (study == run_resolution_study) {
+    list("--bodies", options->bodies, "strip, mirror (half a strip at a smooth wall), foot",
+         "NAME,...")
+        ->check(CLI::IsMember({"strip", "mirror", "foot"}));
+  }
+  if (study == run_box_study) {
+    list("--bodies", options->bodies, "strip, foot", "NAME,...")
+        ->check(CLI::IsMember({"strip", "foot"}));
+  }
+  return command;
+}
+
+}  // namespace
+
+void add_study_command(CLI::App& app, Invocation& invocation) {
+  CLI::App* command =
+      app.add_subcommand("study", "Find out which bed, step and box may be believed");
+  command->require_subcommand(1);
+  command->footer(
+      "Examples:\n"
+      "  hoof study resolution                       coarse grains, minutes\n"
+      "  hoof study resolution --full --threads 2    to the paper's grains, an hour\n"
+      "  hoof study box --bodies foot --beds 3\n"
+      "  hoof study time-step --scales 1");
+  add_study(*command, invocation, "resolution",
+            "Spined against plain, open against closed: effect over the scatter of beds",
+            run_resolution_study);
+  add_study(*command, invocation, "time-step", "The same press with steps from 2 to 12 us",
+            run_time_step_study);
+  add_study(*command, invocation, "box", "Length, width and depth of the box against the force",
+            run_box_study);
+}
+
+}  // namespace hoof::tools

@@ -1,0 +1,116 @@
+#include "tools/study/line_plot.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "tools/report/html.h"
+
+namespace hoof::tools {
+namespace {
+
+constexpr double kWidth = 900, kHeight = 520, kLeft = 70, kRight = 260, kTop = 40, kBottom = 50;
+// Okabe and Ito (2008): told apart by colour-blind readers too.
+constexpr std::array kColours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                 "#e69f00", "#56b4e9", "#000000"};
+
+template <typename... Args>
+void append(std::string& text, const char* format, Args... args) {
+  char buffer[200];  // numbers only; texts are added whole
+  std::snprintf(buffer, sizeof buffer, format, args...);
+  text += buffer;
+}
+
+struct Axis {
+  double low = 0, high = 0;
+
+  void cover(double value) {
+    if (!std::isfinite(value)) return;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  /// 1, 2 or 5 times a power of ten: four to ten marks over the range.
+  double mark() const {
+    const double range = high > low ? high - low : 1;
+    const double power = std::pow(10, std::floor(std::log10(range / 4)));
+    for (const double step : {5.0, 2.0}) {
+      if (range / (step * power) >= 4) return step * power;
+    }
+    return power;
+  }
+};
+
+class Plot {
+ public:
+  explicit Plot(const std::vector<PlotLine>& lines) {
+    for (const PlotLine& line : lines) {
+      for (const auto& [x, y] : line.points) x_.cover(x), y_.cover(y);
+    }
+    if (x_.high == x_.low) x_.high = x_.low + 1;
+    if (y_.high == y_.low) y_.high = y_.low + 1;
+  }
+
+  void grid(std::string& svg) const {
+    for (double v = std::ceil(x_.low / x_.mark()) * x_.mark(); v <= x_.high; v += x_.mark()) {
+      append(svg, "<path d=\"M%.1f %.1fV%.1f\" stroke=\"#ddd\"/>", x(v), kTop, kHeight - kBottom);
+      append(svg, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">%g</text>\n", x(v),
+             kHeight - kBottom + 16, std::abs(v) < 1e-9 * x_.mark() ? 0.0 : v);
+    }
+    for (double v = std::ceil(y_.low / y_.mark()) * y_.mark(); v <= y_.high; v += y_.mark()) {
+      append(svg, "<path d=\"M%.1f %.1fH%.1f\" stroke=\"#ddd\"/>", kLeft, y(v), kWidth - kRight);
+      append(svg, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\">%g</text>\n", kLeft - 6,
+             y(v) + 4, std::abs(v) < 1e-9 * y_.mark() ? 0.0 : v);
+    }
+  }
+
+  void line(std::string& svg, const PlotLine& line, std::size_t index) const {
+    const char* colour = kColours[std::size_t(line.colour) % kColours.size()];
+    const char* dash = line.dashed ? " stroke-dasharray=\"5 4\"" : "";
+    append(svg, "<polyline fill=\"none\" stroke=\"%s\"%s stroke-width=\"1.6\" points=\"", colour,
+           dash);
+    for (const auto& [px, py] : line.points) {
+      if (std::isfinite(px) && std::isfinite(py)) append(svg, "%.1f,%.1f ", x(px), y(py));
+    }
+    const double at_y = kTop + 8 + 16 * double(index);
+    append(svg, "\"/>\n<path d=\"M%.1f %.1fh24\" stroke=\"%s\"%s stroke-width=\"2\"/>",
+           kWidth - kRight + 12, at_y, colour, dash);
+    append(svg, "<text x=\"%.1f\" y=\"%.1f\">", kWidth - kRight + 42, at_y + 4);
+    svg += html_escape(line.label) + "</text>\n";
+  }
+
+ private:
+  double x(double v) const {
+    return kLeft + (v - x_.low) / (x_.high - x_.low) * (kWidth - kLeft - kRight);
+  }
+  double y(double v) const {
+    return kHeight - kBottom - (v - y_.low) / (y_.high - y_.low) * (kHeight - kTop - kBottom);
+  }
+
+  Axis x_, y_;
+};
+
+}  // namespace
+
+std::string draw_lines(const std::string& title, const std::string& x_label,
+                       const std::string& y_label, const std::vector<PlotLine>& lines) {
+  std::string svg;
+  append(svg,
+         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\" "
+         "font-family=\"sans-serif\" font-size=\"12\">\n"
+         "<rect width=\"100%%\" height=\"100%%\" fill=\"#ffffff\"/>\n",
+         kWidth, kHeight);
+  append(svg, "<text x=\"%.0f\" y=\"20\" font-size=\"15\">", kLeft);
+  svg += html_escape(title) + "</text>\n";
+  append(svg, "<text x=\"%.0f\" y=\"%.0f\" text-anchor=\"middle\">", (kLeft + kWidth - kRight) / 2,
+         kHeight - 12);
+  svg += html_escape(x_label) + "</text>\n";
+  append(svg, "<text x=\"%.0f\" y=\"34\">", kLeft - 60);
+  svg += html_escape(y_label) + "</text>\n";
+  const Plot plot(lines);
+  plot.grid(svg);
+  for (std::size_t i = 0; i < lines.size(); ++i) plot.line(svg, lines[i], i);
+  return svg + "</svg>\n";
+}
+
+}  // namespace hoof::tools

@@ -1,0 +1,21 @@
+// Curves over one axis as an SVG file that any browser opens.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace hoof::tools {
+
+struct PlotLine {
+  std::string label;
+  std::vector<std::pair<double, double>> points;
+  int colour = 0;  // lines of one group share it
+  bool dashed = false;
+};
+
+/// @param x_label, y_label with their units
+std::string draw_lines(const std::string& title, const std::string& x_label,
+                       const std::string& y_label, const std::vector<PlotLine>& lines);
+
+}  // namespace hoof::tools
