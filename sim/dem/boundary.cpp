@@ -30,6 +30,11 @@ struct Boundary::Grain {
   double radius_m, mass_kg, dt_s;
   Vec3<double> force_N{}, torque_Nm{};
   double rolling_N = 0;  // kOwnSpin: sum of mu_r F_n
+  ContactEnergy energy;  // stored now, lost in this step
+  // What it remembers of meshes, taken over contact by contact.
+  Memory before;
+  MemoryAccounts accounts_before;
+  std::uint32_t taken_over = 0;  // a bit each
 };
 
 int Boundary::add_mesh(const TriangleMesh& mesh) {
@@ -75,7 +80,8 @@ double Boundary::take_deepest_ratio() {
 
 /// One contact: adds to the grain's force and torque. @return the force on the grain
 Vec3<double> Boundary::push(Grain& g, const Vec3<double>& n, double delta_m,
-                            const Vec3<double>& v_point_m_s, Vec3<double>& xi_m) const {
+                            const Vec3<double>& v_point_m_s, Vec3<double>& xi_m,
+                            Account& account) const {
   const double arm_m = g.radius_m - 0.5 * delta_m;
   Touch<double> c;
   c.delta = delta_m;
@@ -93,21 +99,68 @@ Vec3<double> Boundary::push(Grain& g, const Vec3<double>& n, double delta_m,
   if (settings_.rolling == RollingLaw::kOwnSpin) {
     g.rolling_N += rolling_N;
   } else if (const double w = std::sqrt(dot(g.w_rad_s, g.w_rad_s)); w > 0) {
-    g.torque_Nm = g.torque_Nm - rolling_N * g.radius_m / w * (g.w_rad_s - dot(g.w_rad_s, n) * n);
+    const Vec3<double> torque_Nm =
+        -rolling_N * g.radius_m / w * (g.w_rad_s - dot(g.w_rad_s, n) * n);
+    g.torque_Nm = g.torque_Nm + torque_Nm;
+    g.energy.lost_rolling_J -= g.dt_s * dot(torque_Nm, g.w_rad_s);
+  }
+  if (settings_.account_energy) {
+    g.energy.stored_normal_J += 0.4 * f.F_n_elastic * delta_m;
+    const double S_t = 8 * settings_.law.G_eff_Pa * std::sqrt(g.radius_m * delta_m);
+    account_work(g, c,
+                 {dot(f.f_normal, n) - f.F_n_elastic, f.f_tangential, 0.5 * S_t * dot(xi_m, xi_m)},
+                 account);
   }
   return force_N;
 }
 
+/// In the leapfrog a force changes the kinetic energy by itself times the mean of the displacements
+/// before and after it. Summed over a contact that is the displacement of each step times the mean
+/// of the forces at its ends.
+void Boundary::account_work(Grain& g, const Touch<double>& c, const Account& now, Account& last) {
+  const double v_n = dot(c.v_rel, c.n);
+  const Vec3<double> v_t = c.v_rel - v_n * c.n - cross(c.w_arm, c.n);
+  const double half_dt_s = 0.5 * g.dt_s;
+  g.energy.stored_tangential_J += now.stored_tangential_J;
+  g.energy.lost_normal_dashpot_J -= half_dt_s * (now.damping_N + last.damping_N) * v_n;
+  g.energy.lost_tangential_J -= half_dt_s * dot(now.f_tangential_N + last.f_tangential_N, v_t) +
+                                now.stored_tangential_J - last.stored_tangential_J;
+  last = now;
+}
+
+/// What a contact did in the step in which it ended.
+void Boundary::end_contact(Grain& g, const Vec3<double>& n, const Vec3<double>& v_point_m_s,
+                           Account& account) {
+  Touch<double> c{};
+  c.n = n;
+  c.v_rel = g.v_m_s - v_point_m_s;
+  c.w_arm = g.radius_m * g.w_rad_s;
+  account_work(g, c, {}, account);
+}
+
+/// Rolling friction by a grain's own spin is one brake for all its contacts, which the step
+/// applies.
+double Boundary::rolling_loss_J(const Grain& g) {
+  const double inertia_kg_m2 = 0.4 * g.mass_kg * g.radius_m * g.radius_m;
+  const double w = std::sqrt(dot(g.w_rad_s, g.w_rad_s));
+  const double left = std::max(0.0, w - g.dt_s * g.rolling_N * g.radius_m / inertia_kg_m2);
+  return 0.5 * inertia_kg_m2 * (w * w - left * left);
+}
+
 void Boundary::touch_walls(const NearGrain& b, Grain& g) {
+  Account unused;
   for (std::uint32_t i = b.wall_begin; i < b.wall_end; ++i) {
     WallContact& c = wall_contacts_[i];
+    Account& account = settings_.account_energy ? wall_accounts_[i] : unused;
     const Wall& wall = settings_.walls[std::size_t(c.wall)];
     const double delta_m = g.radius_m - (wall.normal.dot(g.p_m) - wall.offset_m);
+    const bool ends = c.touching && !(delta_m > 0);
     c.touching = delta_m > 0;
     if (c.touching) {
-      push(g, bare(wall.normal), delta_m, {}, c.xi_m);
-    } else {
+      push(g, bare(wall.normal), delta_m, {}, c.xi_m, account);
+    } else if (ends) {
       c.xi_m = {};
+      if (settings_.account_energy) end_contact(g, bare(wall.normal), {}, account);
     }
   }
 }
@@ -115,7 +168,9 @@ void Boundary::touch_walls(const NearGrain& b, Grain& g) {
 /// The patches of one mesh are looked at together, whatever images of the grain they are near.
 void Boundary::touch_meshes(const NearGrain& b, Grain& g, std::vector<MeshSpot>& spots) {
   Memory& memory = memories_[std::size_t(b.memory)];
-  const Memory before = memory;
+  g.before.count = memory.count;
+  std::copy_n(memory.contacts.begin(), memory.count, g.before.contacts.begin());
+  if (settings_.account_energy) g.accounts_before = memory_accounts_[std::size_t(b.memory)];
   memory.count = 0;
   std::uint32_t patch = b.patch_begin;
   while (patch < b.patch_end) {
@@ -133,11 +188,11 @@ void Boundary::touch_meshes(const NearGrain& b, Grain& g, std::vector<MeshSpot>&
         }
       }
     }
-    if (spots.empty()) continue;
-    const bool inner = is_inner(before, first.mesh, spots);
+    const bool inner = !spots.empty() && is_inner(g.before, first.mesh, spots);
     if (inner) turn_inside_out(spots);
     keep_distinct(spots, g.radius_m);
-    touch_spots(first, before, spots, inner, g, memory);
+    touch_spots(b, first, spots, inner, g);
+    if (settings_.account_energy) end_mesh_contacts(first, g);
   }
 }
 
@@ -146,23 +201,29 @@ void Boundary::touch_meshes(const NearGrain& b, Grain& g, std::vector<MeshSpot>&
 /// inside a body stays inside.
 bool Boundary::is_inner(const Memory& before, std::uint32_t mesh,
                         const std::vector<MeshSpot>& spots) {
-  for (std::int32_t i = 0; i < before.count; ++i) {
-    if (before.contacts[std::size_t(i)].mesh == mesh) return before.contacts[std::size_t(i)].inner;
+  for (std::size_t i = 0; i < before.count; ++i) {
+    if (before.contacts[i].mesh == mesh) return before.contacts[i].inner;
   }
   return nearest(spots).distance_m < 0;
 }
 
-void Boundary::touch_spots(Patch& patch, const Memory& before, const std::vector<MeshSpot>& spots,
-                           bool inner, Grain& g, Memory& memory) const {
+void Boundary::touch_spots(const NearGrain& b, Patch& patch, const std::vector<MeshSpot>& spots,
+                           bool inner, Grain& g) {
   const Mesh& mesh = meshes_[patch.mesh];
+  Memory& memory = memories_[std::size_t(b.memory)];
+  const Vec3<double> v_WB_m_s = bare(mesh.motion.v_WB_m_s);
+  const Vec3<double> w_WB_rad_s = bare(mesh.motion.w_WB_rad_s);
   for (const MeshSpot& spot : spots) {
     const Vec3<double> n = bare(mesh.now.R_WB * spot.normal);
     const Vec3<double> arm_m = bare(mesh.now.R_WB * spot.point_m);
-    const Vec3<double> v_WB_m_s = bare(mesh.motion.v_WB_m_s);
-    const Vec3<double> w_WB_rad_s = bare(mesh.motion.w_WB_rad_s);
-    Vec3<double> xi_m = remembered(before, patch.mesh, n);
+    MeshContact contact{patch.mesh, inner, n, {}};
+    Account account;
+    if (const int i = take_over(g, patch.mesh, n); i >= 0) {
+      contact.xi_m = g.before.contacts[std::size_t(i)].xi_m;
+      if (settings_.account_energy) account = g.accounts_before[std::size_t(i)];
+    }
     const Vec3<double> force_N =
-        push(g, n, spot.overlap_m, v_WB_m_s + cross(w_WB_rad_s, arm_m), xi_m);
+        push(g, n, spot.overlap_m, v_WB_m_s + cross(w_WB_rad_s, arm_m), contact.xi_m, account);
     const Vec3<double> impulse_Ns = -g.dt_s * force_N;
     const Vec3<double> angular_impulse_Nms = cross(arm_m, impulse_Ns);
     Load& load = patch.load;
@@ -170,27 +231,43 @@ void Boundary::touch_spots(Patch& patch, const Memory& before, const std::vector
     load.angular_impulse_Nms = load.angular_impulse_Nms + angular_impulse_Nms;
     load.work_J += dot(impulse_Ns, v_WB_m_s) + dot(angular_impulse_Nms, w_WB_rad_s);
     load.deepest_ratio = std::max(load.deepest_ratio, spot.overlap_m / g.radius_m);
-    if (memory.count < kMaxContacts) {
-      memory.contacts[std::size_t(memory.count++)] = {patch.mesh, inner, n, xi_m};
+    if (memory.count == kMaxContacts) continue;
+    if (settings_.account_energy) {
+      memory_accounts_[std::size_t(b.memory)][memory.count] = account;
     }
+    memory.contacts[memory.count++] = contact;
   }
 }
 
-/// Tangential displacement of the contact that was here at the last step.
-Vec3<double> Boundary::remembered(const Memory& before, std::uint32_t mesh, const Vec3<double>& n) {
+/// @return the contact of the last step that this one continues, or -1. Each is continued once:
+/// where one contact becomes two, only the nearer one has its spring.
+int Boundary::take_over(Grain& g, std::uint32_t mesh, const Vec3<double>& n) {
   // A grain that rolls over an edge keeps its contact: the normal turns little from step to step.
   constexpr double kSameContact = 0.8;  // cos 37 degrees
   double best = kSameContact;
-  Vec3<double> xi_m{};
-  for (std::int32_t i = 0; i < before.count; ++i) {
-    const MeshContact& c = before.contacts[std::size_t(i)];
-    if (c.mesh != mesh) continue;
+  int found = -1;
+  for (int i = 0; i < int(g.before.count); ++i) {
+    const MeshContact& c = g.before.contacts[std::size_t(i)];
+    if (c.mesh != mesh || (g.taken_over >> i & 1)) continue;
     if (const double alike = dot(c.n, n); alike > best) {
       best = alike;
-      xi_m = c.xi_m;
+      found = i;
     }
   }
-  return xi_m;
+  if (found >= 0) g.taken_over |= 1u << found;
+  return found;
+}
+
+void Boundary::end_mesh_contacts(const Patch& patch, Grain& g) const {
+  const Mesh& mesh = meshes_[patch.mesh];
+  for (std::size_t i = 0; i < g.before.count; ++i) {
+    const MeshContact& c = g.before.contacts[i];
+    if (c.mesh != patch.mesh || (g.taken_over >> i & 1)) continue;
+    const Eigen::Vector3d arm_m =
+        eigen(patch.p_m) + g.moved_m - g.radius_m * eigen(c.n) - mesh.now.origin_m;
+    end_contact(g, c.n, bare(mesh.motion.v_WB_m_s + mesh.motion.w_WB_rad_s.cross(arm_m)),
+                g.accounts_before[i]);
+  }
 }
 
 template <typename Real>
@@ -218,6 +295,12 @@ void Boundary::compute(const GrainRecord<Real>* records, const Domain& domain, d
                   domain.lsb_m.cwiseProduct(Eigen::Vector3d(r.rx, r.ry, r.rz));
       touch_meshes(*b, g, spots);
     }
+    if (settings_.account_energy) {
+      if (settings_.rolling == RollingLaw::kOwnSpin) g.energy.lost_rolling_J = rolling_loss_J(g);
+      ContactEnergy& sum = energies_[b->account];
+      sum.stored_normal_J = sum.stored_tangential_J = 0;
+      sum += g.energy;
+    }
     BoundaryForce<Real>& out = forces[std::size_t(b->force)];
     const std::uint32_t lane = b->row % kLanes;
     out.fx[lane] = Real(g.force_N.x), out.fy[lane] = Real(g.force_N.y);
@@ -234,6 +317,19 @@ const Boundary::Forces<float>& Boundary::forces<float>() const {
 template <>
 const Boundary::Forces<double>& Boundary::forces<double>() const {
   return forces_double_;
+}
+
+void Boundary::flush_energies() {
+  lost_ = energy();
+  lost_.stored_normal_J = lost_.stored_tangential_J = 0;
+  energies_.assign(energies_.size(), {});
+}
+
+ContactEnergy Boundary::energy() const {
+  ContactEnergy sum = lost_;
+  if (!settings_.account_energy) return sum;
+  for (const NearGrain& b : grains_) sum += energies_[b.account];
+  return sum;
 }
 
 /// The place of grain `row` on wall `wall` in wall_contacts_, or -1.

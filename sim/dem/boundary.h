@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "sim/dem/aligned_allocator.h"
+#include "sim/dem/byte_archive.h"
+#include "sim/dem/contact_energy.h"
 #include "sim/dem/contact_law.h"
 #include "sim/dem/domain.h"
 #include "sim/dem/grain_record.h"
@@ -48,7 +50,8 @@ struct BoundarySettings {
   CoulombCap cap = CoulombCap::kTotalNormal;
   RollingLaw rolling = RollingLaw::kOwnSpin;
   std::vector<Wall> walls;
-  double skin_m = 0;  // how far beyond touch a grain is looked for
+  double skin_m = 0;            // how far beyond touch a grain is looked for
+  bool account_energy = false;  // energy() costs some time at every contact
 };
 
 /// A step is: prepare, compute (from several threads at once, each its own groups), advance.
@@ -97,6 +100,18 @@ class Boundary {
   bool wall_history(std::uint32_t row, int wall, Eigen::Vector3d& xi_m) const;
   void set_wall_history(std::uint32_t row, int wall, const Eigen::Vector3d& xi_m);
 
+  /// Energy of the contacts with walls and meshes: stored at the last step, lost so far; sums in
+  /// row order. Of rolling friction by a grain's own spin, which the step applies as one brake for
+  /// all its contacts, this is what walls and meshes alone would take. All zero unless switched on.
+  ContactEnergy energy() const;
+
+  /// Everything that decides what comes next, but settings and meshes, which the boundary that
+  /// loads must have been given alike. @throws std::runtime_error if it has not, or if the bytes
+  /// end too early
+  void save(ByteWriter& out) const;
+  template <typename Real>
+  void load(ByteReader& in);
+
   /// Largest overlap with a mesh over grain radius seen since the last call.
   double take_deepest_ratio();
 
@@ -136,7 +151,13 @@ class Boundary {
     std::uint32_t patch_begin, patch_end;  // in patches_
     std::int32_t memory;                   // in memories_, if it has patches
     std::int32_t force;                    // in forces
+    std::uint32_t account;                 // in energies_
     Position listed_at;
+  };
+  struct Account {  // of one contact at the last step, only if energy is accounted
+    double damping_N = 0;
+    Vec3<double> f_tangential_N{};
+    double stored_tangential_J = 0;
   };
   struct WallContact {
     std::int32_t wall;
@@ -160,10 +181,15 @@ class Boundary {
     Vec3<double> n, xi_m;
   };
   struct Memory {  // a grain's mesh contacts of the last step
-    std::int32_t count;
+    std::uint64_t count;
     std::array<MeshContact, kMaxContacts> contacts;
   };
+  using MemoryAccounts = std::array<Account, kMaxContacts>;
   struct Grain;  // one grain's state and sums while it is worked on
+
+  // boundary_archive.cpp
+  template <typename Archive, typename Self>
+  static void transfer(Archive& archive, Self& self);
 
   // boundary_lists.cpp
   static Eigen::AlignedBox3d world_box(const Mesh& m);
@@ -181,18 +207,24 @@ class Boundary {
   template <typename Real>
   void number_forces(std::uint32_t count);
   void flush_loads();
+  void flush_energies();
 
   // boundary.cpp
   void place_meshes(double time_s);
   void touch_walls(const NearGrain& b, Grain& g);
   void touch_meshes(const NearGrain& b, Grain& g, std::vector<MeshSpot>& spots);
-  void touch_spots(Patch& patch, const Memory& before, const std::vector<MeshSpot>& spots,
-                   bool inner, Grain& g, Memory& memory) const;
+  void touch_spots(const NearGrain& b, Patch& patch, const std::vector<MeshSpot>& spots, bool inner,
+                   Grain& g);
   static bool is_inner(const Memory& before, std::uint32_t mesh,
                        const std::vector<MeshSpot>& spots);
-  static Vec3<double> remembered(const Memory& before, std::uint32_t mesh, const Vec3<double>& n);
+  static int take_over(Grain& g, std::uint32_t mesh, const Vec3<double>& n);
+  void end_mesh_contacts(const Patch& patch, Grain& g) const;
+  static void end_contact(Grain& g, const Vec3<double>& n, const Vec3<double>& v_point_m_s,
+                          Account& account);
+  static void account_work(Grain& g, const Touch<double>& c, const Account& now, Account& last);
+  static double rolling_loss_J(const Grain& g);
   Vec3<double> push(Grain& g, const Vec3<double>& n, double delta_m,
-                    const Vec3<double>& v_point_m_s, Vec3<double>& xi_m) const;
+                    const Vec3<double>& v_point_m_s, Vec3<double>& xi_m, Account& account) const;
   std::ptrdiff_t find_wall_contact(std::uint32_t row, int wall) const;
   template <typename Real>
   Forces<Real>& forces_of() {
@@ -208,9 +240,13 @@ class Boundary {
 
   std::vector<NearGrain> grains_, old_grains_;  // by row
   std::vector<WallContact> wall_contacts_, old_wall_contacts_;
+  std::vector<Account> wall_accounts_, old_wall_accounts_;  // as wall_contacts_
   std::vector<Patch> patches_;
   std::vector<std::uint32_t> near_facets_;
   std::vector<Memory> memories_, old_memories_;
+  std::vector<MemoryAccounts> memory_accounts_, old_memory_accounts_;  // as memories_
+  std::vector<ContactEnergy> energies_;                                // of grains_, when listed
+  ContactEnergy lost_;        // by grains that are listed no longer
   double deepest_ratio_ = 0;  // of contacts that are listed no longer
 
   std::vector<std::int32_t> force_of_group_;

@@ -160,8 +160,10 @@ void Boundary::append_patches(std::uint32_t meshes, const Eigen::Vector3d& p_m, 
 template <typename Real>
 void Boundary::list(const GrainRecord<Real>* records, std::uint32_t count, const Domain& domain) {
   flush_loads();
+  flush_energies();
   grains_.swap(old_grains_), wall_contacts_.swap(old_wall_contacts_);
   memories_.swap(old_memories_);
+  wall_accounts_.swap(old_wall_accounts_), memory_accounts_.swap(old_memory_accounts_);
   grains_.clear(), wall_contacts_.clear(), memories_.clear();
   patches_.clear(), near_facets_.clear();
   for (Candidate& c : candidates_) {
@@ -172,6 +174,7 @@ void Boundary::list(const GrainRecord<Real>* records, std::uint32_t count, const
     b.row = c.row;
     b.listed_at = c.listed_at;
     b.memory = -1;
+    b.account = std::uint32_t(grains_.size());
     b.wall_begin = std::uint32_t(wall_contacts_.size());
     b.patch_begin = std::uint32_t(patches_.size());
     GrainRecord<Real> whole_steps = r;  // what is below one step is added when it is used
@@ -186,6 +189,11 @@ void Boundary::list(const GrainRecord<Real>* records, std::uint32_t count, const
       memories_.push_back({});
     }
     grains_.push_back(b);
+  }
+  if (settings_.account_energy) {
+    wall_accounts_.assign(wall_contacts_.size(), {});
+    memory_accounts_.assign(memories_.size(), {});
+    energies_.assign(grains_.size(), {});
   }
   carry_memory();
   number_forces<Real>(count);
@@ -202,12 +210,15 @@ void Boundary::carry_memory() {
     if (old->row != b.row) continue;
     if (b.memory >= 0 && old->memory >= 0) {
       memories_[std::size_t(b.memory)] = old_memories_[std::size_t(old->memory)];
+      if (settings_.account_energy) {
+        memory_accounts_[std::size_t(b.memory)] = old_memory_accounts_[std::size_t(old->memory)];
+      }
     }
     for (std::uint32_t i = b.wall_begin; i < b.wall_end; ++i) {
       for (std::uint32_t k = old->wall_begin; k < old->wall_end; ++k) {
-        if (old_wall_contacts_[k].wall == wall_contacts_[i].wall) {
-          wall_contacts_[i] = old_wall_contacts_[k];
-        }
+        if (old_wall_contacts_[k].wall != wall_contacts_[i].wall) continue;
+        wall_contacts_[i] = old_wall_contacts_[k];
+        if (settings_.account_energy) wall_accounts_[i] = old_wall_accounts_[k];
       }
     }
   }

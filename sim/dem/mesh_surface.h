@@ -24,6 +24,7 @@ class MeshSurface {
   /// Of the vertices about the body's origin.
   double radius_m() const { return radius_m_; }
   const Eigen::AlignedBox3d& box() const { return box_; }
+  std::size_t facet_count() const { return facets_.size(); }
 
   /// False only where no triangle is within reach of p.
   bool maybe_near(const Eigen::Vector3d& p, double reach_m) const;
