@@ -83,9 +83,11 @@ BedSettings read_bed(Reader section) {
   for (std::size_t i = 0; i < low.size(); ++i) bed.sieve.push_back({low[i], high[i], share[i]});
   section.number("grain_scale_ratio", bed.grain_scale, kUnitless, 0.05, 50);
   section.integer("steps_per_ms", bed.steps_per_ms, 10, 100000);
+  section.integer("settling_steps_per_ms", bed.settling_steps_per_ms, 1, 100000);
   section.number("skin_um", bed.skin_m, kMicrometre, 1, 20000);
   section.number("packing_friction", bed.packing_friction, kUnitless, 0, 5);
   section.number("packing_rolling_friction", bed.packing_rolling_friction, kUnitless, 0, 5);
+  section.number("rain_share_ratio", bed.rain_share, kUnitless, 0.05, 0.55);
   section.number("overfill_ratio", bed.overfill, kUnitless, 1, 2);
   section.choice("coulomb_cap", cap, {"total", "elastic"});
   section.choice("rolling_law", rolling, {"own_spin", "relative_spin"});

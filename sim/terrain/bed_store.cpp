@@ -10,7 +10,7 @@ namespace {
 
 // Raised whenever the same settings would give another bed: a change of the recipe in bed_maker.cpp
 // or of what a step of the engine computes.
-constexpr int kRecipe = 2;
+constexpr int kRecipe = 3;
 
 std::string text(double value) {
   return to_text(Value(value));
@@ -29,8 +29,10 @@ std::string BedStore::key(const BedSettings& bed, const Materials& materials, st
     add("low_m", c.low_m), add("high_m", c.high_m), add("mass_share", c.mass_share);
   }
   add("scale", bed.grain_scale), add("steps_per_ms", bed.steps_per_ms);
+  add("settling_steps_per_ms", bed.settling_steps_per_ms);
   add("skin_m", bed.skin_m), add("packing_friction", bed.packing_friction);
   add("packing_rolling", bed.packing_rolling_friction);
+  add("rain_share", bed.rain_share);
   add("overfill", bed.overfill), add("cap", int(bed.coulomb_cap));
   add("rolling", int(bed.rolling_law)), add("precision", int(bed.precision));
   for (const Material* m : {&materials.sand, &materials.abs}) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sim/terrain/bed_maker.h"
+#include "sim/terrain/bed_report.h"
 
 namespace hoof::sim::test {
 
@@ -22,8 +23,11 @@ inline BedSettings small_bed() {
   bed.grain_scale = 2;
   // 6.25 us, 12 % of the Rayleigh time of the smallest grain: whole numbers of steps in 25 us.
   bed.steps_per_ms = 160;
+  bed.settling_steps_per_ms = 80;
   bed.skin_m = 3e-4;
   bed.packing_friction = 0.3;
+  bed.packing_rolling_friction = 0;
+  bed.rain_share = 0.30;
   bed.overfill = 1.10;
   return bed;
 }
