@@ -116,7 +116,10 @@ std::uint64_t checksum64(std::string_view bytes, std::uint64_t seed) {
   const auto take = [](std::uint64_t h, const char* from, std::size_t size) {
     std::uint64_t word = 0;
     std::memcpy(&word, from, size);
-    return std::rotl((h ^ word) * kFactor, 29);
+    h ^= word;
+    // A product carries upward only: without the upper half in the lower one, a flipped top bit
+    // would stay alone and could be flipped back by the next word of the lane.
+    return std::rotl((h ^ (h >> 32)) * kFactor, 29);
   };
   std::size_t at = 0;
   for (; at + kBlock <= bytes.size(); at += kBlock) {
@@ -193,6 +196,10 @@ CheckpointSearch CheckpointFiles::read_newest(std::uint64_t up_to_step) {
     search.refused.push_back(path_of(number).string() + " " + reason);
   }
   return search;
+}
+
+bool CheckpointFiles::any_in(const fs::path& folder) {
+  return !numbers_in(folder).empty();
 }
 
 void CheckpointFiles::remove() {

@@ -12,8 +12,9 @@
 namespace hoof::sim {
 
 /// 64 bits over many bytes at memory speed; against damage, not against forgery. Four lanes take
-/// eight bytes each in turn, h = rotate((h ^ word) * odd constant): one-to-one in h and in the
-/// word, so that damage within one word never goes unseen. Little-endian words.
+/// eight bytes each in turn: h ^= word, h ^= h >> 32, h = rotate(h * odd constant), which is
+/// one-to-one in h and in the word, so that damage within one word never goes unseen.
+/// Little-endian.
 std::uint64_t checksum64(std::string_view bytes, std::uint64_t seed = 0);
 
 /// What is kept of the work at one moment.
@@ -47,6 +48,9 @@ class CheckpointFiles {
   /// @param up_to_step those of later steps are refused, too
   CheckpointSearch read_newest(
       std::uint64_t up_to_step = std::numeric_limits<std::uint64_t>::max());
+
+  /// Whether a folder holds checkpoints, good or bad, of whatever work.
+  static bool any_in(const std::filesystem::path& folder);
 
   /// Removes all checkpoints, and the folder where nothing else is in it.
   void remove();
