@@ -13,9 +13,9 @@ namespace hoof::tools {
 namespace {
 
 constexpr double kDepths_m[] = {5e-3, 8e-3, 13e-3};
-// Strip of 40 mm: boxes of 2 to 12 times its width, and 1.5 to 5 times as deep.
-constexpr double kStripLengths_mm[] = {80, 120, 160, 240, 320, 480};
-constexpr double kStripDepths_mm[] = {60, 80, 100, 150, 200};
+// Strip of 40 mm: boxes of 2 to 16 times its width, and 1.5 to 5 times as deep.
+constexpr double kStripLengths_mm[] = {80, 120, 160, 240, 320, 480, 640};
+constexpr double kStripDepths_mm[] = {60, 100, 150, 200};
 constexpr double kStripDepth_mm = 100, kStripLength_mm = 240;
 // Boxes over the footprint of the foot in x and y; 3 x 4.6 is the paper's box for closed toes.
 constexpr double kFootFactors[] = {1.5, 2, 3, 4, 5};

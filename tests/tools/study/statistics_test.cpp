@@ -1,0 +1,46 @@
+#include "tools/study/statistics.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+
+using namespace hoof::tools;
+
+TEST_CASE("mean, scatter and confidence of a few values") {
+  // 1, 2, 3, 4, 5: variance 2.5, t(4) = 2.776 (any table of Student's t).
+  const Sample s = sample_of({1, 2, 3, 4, 5});
+  CHECK(s.n == 5);
+  CHECK(s.mean == Approx(3));
+  CHECK(s.deviation == Approx(std::sqrt(2.5)));
+  CHECK(s.standard_error == Approx(std::sqrt(0.5)));
+  CHECK(s.confidence == Approx(2.776 * std::sqrt(0.5)));
+  CHECK(s.above_one == 4);  // 1 itself is not above
+}
+
+TEST_CASE("a sample below one has the same scatter and no value above one") {
+  const Sample s = sample_of({-1, -2, -3, -4, -5});
+  CHECK(s.mean == Approx(-3));
+  CHECK(s.deviation == Approx(std::sqrt(2.5)));
+  CHECK(s.above_one == 0);
+}
+
+TEST_CASE("one value has no scatter that could be known; runs that failed do not count") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const Sample one = sample_of({nan, 1.5, nan});
+  CHECK(one.n == 1);
+  CHECK(one.mean == 1.5);
+  CHECK(std::isnan(one.deviation));
+  CHECK(std::isnan(one.confidence));
+  const Sample none = sample_of({nan});
+  CHECK(none.n == 0);
+  CHECK(std::isnan(none.mean));
+}
+
+TEST_CASE("Student's t falls with the degrees of freedom and never below that of 10") {
+  CHECK(student_t_975(1) == 12.706);
+  CHECK(student_t_975(4) == 2.776);
+  CHECK(student_t_975(10) == 2.228);
+  CHECK(student_t_975(1000) == 2.228);  // true value 1.962: on the safe side
+  CHECK(std::isnan(student_t_975(0)));
+  for (std::size_t n = 2; n < 12; ++n) CHECK(student_t_975(n) <= student_t_975(n - 1));
+}
