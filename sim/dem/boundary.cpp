@@ -31,10 +31,14 @@ struct Boundary::Grain {
   Vec3<double> force_N{}, torque_Nm{};
   double rolling_N = 0;  // kOwnSpin: sum of mu_r F_n
   ContactEnergy energy;  // stored now, lost in this step
-  // What it remembers of meshes, taken over contact by contact.
-  Memory before;
+};
+
+/// Room for the mesh contacts of one grain, kept from grain to grain.
+struct Boundary::Workspace {
+  std::vector<MeshSpot> spots;
+  Memory before;  // contacts of the last step, taken over one by one
   MemoryAccounts accounts_before;
-  std::uint32_t taken_over = 0;  // a bit each
+  std::uint32_t taken_over;  // a bit each
 };
 
 int Boundary::add_mesh(const TriangleMesh& mesh) {
@@ -166,17 +170,17 @@ void Boundary::touch_walls(const NearGrain& b, Grain& g) {
 }
 
 /// The patches of one mesh are looked at together, whatever images of the grain they are near.
-void Boundary::touch_meshes(const NearGrain& b, Grain& g, std::vector<MeshSpot>& spots) {
+void Boundary::touch_meshes(const NearGrain& b, Grain& g, Workspace& w) {
   Memory& memory = memories_[std::size_t(b.memory)];
-  g.before.count = memory.count;
-  std::copy_n(memory.contacts.begin(), memory.count, g.before.contacts.begin());
-  if (settings_.account_energy) g.accounts_before = memory_accounts_[std::size_t(b.memory)];
-  memory.count = 0;
+  w.before.count = std::exchange(memory.count, 0);
+  std::copy_n(memory.contacts.begin(), w.before.count, w.before.contacts.begin());
+  if (settings_.account_energy) w.accounts_before = memory_accounts_[std::size_t(b.memory)];
+  w.taken_over = 0;
   std::uint32_t patch = b.patch_begin;
   while (patch < b.patch_end) {
     Patch& first = patches_[patch];
     const Mesh& mesh = meshes_[first.mesh];
-    spots.clear();
+    w.spots.clear();
     for (; patch < b.patch_end && patches_[patch].mesh == first.mesh; ++patch) {
       const Patch& near = patches_[patch];
       const Eigen::Vector3d p_B_m =
@@ -184,43 +188,43 @@ void Boundary::touch_meshes(const NearGrain& b, Grain& g, std::vector<MeshSpot>&
       for (std::uint32_t i = near.facet_begin; i < near.facet_end; ++i) {
         MeshSpot spot;
         if (mesh.surface.find_spot(near_facets_[i], p_B_m, g.radius_m, spot)) {
-          spots.push_back(spot);
+          w.spots.push_back(spot);
         }
       }
     }
-    const bool inner = !spots.empty() && is_inner(g.before, first.mesh, spots);
-    if (inner) turn_inside_out(spots);
-    keep_distinct(spots, g.radius_m);
-    touch_spots(b, first, spots, inner, g);
-    if (settings_.account_energy) end_mesh_contacts(first, g);
+    if (!w.spots.empty()) {
+      const bool inner = is_inner(w, first.mesh);
+      if (inner) turn_inside_out(w.spots);
+      keep_distinct(w.spots, g.radius_m);
+      touch_spots(b, first, inner, g, w);
+    }
+    if (settings_.account_energy) end_mesh_contacts(first, g, w);
   }
 }
 
 /// Which side of the surface a grain belongs to is settled when contact begins, and lasts as long:
 /// a centre that is pressed through a face is pushed back where it came from. A grain that was put
 /// inside a body stays inside.
-bool Boundary::is_inner(const Memory& before, std::uint32_t mesh,
-                        const std::vector<MeshSpot>& spots) {
-  for (std::size_t i = 0; i < before.count; ++i) {
-    if (before.contacts[i].mesh == mesh) return before.contacts[i].inner;
+bool Boundary::is_inner(const Workspace& w, std::uint32_t mesh) {
+  for (std::size_t i = 0; i < w.before.count; ++i) {
+    if (w.before.contacts[i].mesh == mesh) return w.before.contacts[i].inner;
   }
-  return nearest(spots).distance_m < 0;
+  return nearest(w.spots).distance_m < 0;
 }
 
-void Boundary::touch_spots(const NearGrain& b, Patch& patch, const std::vector<MeshSpot>& spots,
-                           bool inner, Grain& g) {
+void Boundary::touch_spots(const NearGrain& b, Patch& patch, bool inner, Grain& g, Workspace& w) {
   const Mesh& mesh = meshes_[patch.mesh];
   Memory& memory = memories_[std::size_t(b.memory)];
   const Vec3<double> v_WB_m_s = bare(mesh.motion.v_WB_m_s);
   const Vec3<double> w_WB_rad_s = bare(mesh.motion.w_WB_rad_s);
-  for (const MeshSpot& spot : spots) {
+  for (const MeshSpot& spot : w.spots) {
     const Vec3<double> n = bare(mesh.now.R_WB * spot.normal);
     const Vec3<double> arm_m = bare(mesh.now.R_WB * spot.point_m);
     MeshContact contact{patch.mesh, inner, n, {}};
     Account account;
-    if (const int i = take_over(g, patch.mesh, n); i >= 0) {
-      contact.xi_m = g.before.contacts[std::size_t(i)].xi_m;
-      if (settings_.account_energy) account = g.accounts_before[std::size_t(i)];
+    if (const int i = take_over(w, patch.mesh, n); i >= 0) {
+      contact.xi_m = w.before.contacts[std::size_t(i)].xi_m;
+      if (settings_.account_energy) account = w.accounts_before[std::size_t(i)];
     }
     const Vec3<double> force_N =
         push(g, n, spot.overlap_m, v_WB_m_s + cross(w_WB_rad_s, arm_m), contact.xi_m, account);
@@ -241,32 +245,32 @@ void Boundary::touch_spots(const NearGrain& b, Patch& patch, const std::vector<M
 
 /// @return the contact of the last step that this one continues, or -1. Each is continued once:
 /// where one contact becomes two, only the nearer one has its spring.
-int Boundary::take_over(Grain& g, std::uint32_t mesh, const Vec3<double>& n) {
+int Boundary::take_over(Workspace& w, std::uint32_t mesh, const Vec3<double>& n) {
   // A grain that rolls over an edge keeps its contact: the normal turns little from step to step.
   constexpr double kSameContact = 0.8;  // cos 37 degrees
   double best = kSameContact;
   int found = -1;
-  for (int i = 0; i < int(g.before.count); ++i) {
-    const MeshContact& c = g.before.contacts[std::size_t(i)];
-    if (c.mesh != mesh || (g.taken_over >> i & 1)) continue;
+  for (int i = 0; i < int(w.before.count); ++i) {
+    const MeshContact& c = w.before.contacts[std::size_t(i)];
+    if (c.mesh != mesh || (w.taken_over >> i & 1)) continue;
     if (const double alike = dot(c.n, n); alike > best) {
       best = alike;
       found = i;
     }
   }
-  if (found >= 0) g.taken_over |= 1u << found;
+  if (found >= 0) w.taken_over |= 1u << found;
   return found;
 }
 
-void Boundary::end_mesh_contacts(const Patch& patch, Grain& g) const {
+void Boundary::end_mesh_contacts(const Patch& patch, Grain& g, Workspace& w) const {
   const Mesh& mesh = meshes_[patch.mesh];
-  for (std::size_t i = 0; i < g.before.count; ++i) {
-    const MeshContact& c = g.before.contacts[i];
-    if (c.mesh != patch.mesh || (g.taken_over >> i & 1)) continue;
+  for (std::size_t i = 0; i < w.before.count; ++i) {
+    const MeshContact& c = w.before.contacts[i];
+    if (c.mesh != patch.mesh || (w.taken_over >> i & 1)) continue;
     const Eigen::Vector3d arm_m =
         eigen(patch.p_m) + g.moved_m - g.radius_m * eigen(c.n) - mesh.now.origin_m;
     end_contact(g, c.n, bare(mesh.motion.v_WB_m_s + mesh.motion.w_WB_rad_s.cross(arm_m)),
-                g.accounts_before[i]);
+                w.accounts_before[i]);
   }
 }
 
@@ -274,13 +278,15 @@ template <typename Real>
 void Boundary::compute(const GrainRecord<Real>* records, const Domain& domain, double dt_s,
                        std::uint32_t group_begin, std::uint32_t group_end) {
   auto& forces = forces_of<Real>();
-  std::vector<MeshSpot> spots;
+  Workspace workspace;
   const auto first_of = [&](std::uint32_t group) {
     return std::lower_bound(grains_.begin(), grains_.end(), group * kLanes,
                             [](const NearGrain& b, std::uint32_t row) { return b.row < row; });
   };
   const auto end = first_of(group_end);
+  constexpr std::ptrdiff_t kAhead = 8;  // grains; their records lie far apart
   for (auto b = first_of(group_begin); b != end; ++b) {
+    if (end - b > kAhead) __builtin_prefetch(&records[b[kAhead].row]);
     const GrainRecord<Real>& r = records[b->row];
     Grain g;
     g.p_m = domain.position_m(r);
@@ -293,7 +299,7 @@ void Boundary::compute(const GrainRecord<Real>* records, const Domain& domain, d
     if (b->memory >= 0) {
       g.moved_m = moved_m(r, b->listed_at, domain) +
                   domain.lsb_m.cwiseProduct(Eigen::Vector3d(r.rx, r.ry, r.rz));
-      touch_meshes(*b, g, spots);
+      touch_meshes(*b, g, workspace);
     }
     if (settings_.account_energy) {
       if (settings_.rolling == RollingLaw::kOwnSpin) g.energy.lost_rolling_J = rolling_loss_J(g);

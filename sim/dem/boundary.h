@@ -186,6 +186,7 @@ class Boundary {
   };
   using MemoryAccounts = std::array<Account, kMaxContacts>;
   struct Grain;  // one grain's state and sums while it is worked on
+  struct Workspace;
 
   // boundary_archive.cpp
   template <typename Archive, typename Self>
@@ -212,13 +213,11 @@ class Boundary {
   // boundary.cpp
   void place_meshes(double time_s);
   void touch_walls(const NearGrain& b, Grain& g);
-  void touch_meshes(const NearGrain& b, Grain& g, std::vector<MeshSpot>& spots);
-  void touch_spots(const NearGrain& b, Patch& patch, const std::vector<MeshSpot>& spots, bool inner,
-                   Grain& g);
-  static bool is_inner(const Memory& before, std::uint32_t mesh,
-                       const std::vector<MeshSpot>& spots);
-  static int take_over(Grain& g, std::uint32_t mesh, const Vec3<double>& n);
-  void end_mesh_contacts(const Patch& patch, Grain& g) const;
+  void touch_meshes(const NearGrain& b, Grain& g, Workspace& w);
+  void touch_spots(const NearGrain& b, Patch& patch, bool inner, Grain& g, Workspace& w);
+  static bool is_inner(const Workspace& w, std::uint32_t mesh);
+  static int take_over(Workspace& w, std::uint32_t mesh, const Vec3<double>& n);
+  void end_mesh_contacts(const Patch& patch, Grain& g, Workspace& w) const;
   static void end_contact(Grain& g, const Vec3<double>& n, const Vec3<double>& v_point_m_s,
                           Account& account);
   static void account_work(Grain& g, const Touch<double>& c, const Account& now, Account& last);

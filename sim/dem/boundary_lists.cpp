@@ -16,16 +16,17 @@ constexpr double kSearchedSkins = 15;
 template <typename Visit>
 void visit_images(const Eigen::Vector3d& p, const Eigen::AlignedBox3d& box, const Domain& domain,
                   const Visit& visit) {
+  for (int axis = 0; axis < 3; ++axis) {  // most points are told off here
+    if (domain.periodic[std::size_t(axis)]) continue;
+    if (p[axis] < box.min()[axis] || p[axis] > box.max()[axis]) return;
+  }
   std::array<int, 3> first{}, last{};
   for (int axis = 0; axis < 3; ++axis) {
     const auto i = std::size_t(axis);
-    if (domain.periodic[i]) {
-      const double length_m = domain.length_m(axis);
-      first[i] = int(std::ceil((box.min()[axis] - p[axis]) / length_m));
-      last[i] = int(std::floor((box.max()[axis] - p[axis]) / length_m));
-    } else if (p[axis] < box.min()[axis] || p[axis] > box.max()[axis]) {
-      return;
-    }
+    if (!domain.periodic[i]) continue;
+    const double length_m = domain.length_m(axis);
+    first[i] = int(std::ceil((box.min()[axis] - p[axis]) / length_m));
+    last[i] = int(std::floor((box.max()[axis] - p[axis]) / length_m));
   }
   for (int z = first[2]; z <= last[2]; ++z) {
     for (int y = first[1]; y <= last[1]; ++y) {
