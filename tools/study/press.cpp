@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "sim/terrain/bed_report.h"
 #include "sim/terrain/bed_store.h"
 #include "tools/report/sample_table.h"
 #include "tools/run/csv_writer.h"
@@ -116,6 +117,7 @@ PressCurve press(const PressCase& c, const sim::Materials& materials, const sim:
   const Clock::time_point start = Clock::now();
   PressCurve curve;
   curve.grain_count = double(state.grains.size());
+  curve.solid_share = sim::inspect_bed(c.bed, materials, state).solid_share;
   sim::SandBed bed(engine_settings(c, materials, threads), state);
   Descent descent(c, bed);
   const double dt_s = c.step_s();
@@ -146,7 +148,7 @@ void write_curve(const std::filesystem::path& file, const PressCurve& curve) {
   std::filesystem::path partial = file;
   partial += ".partial";
   CsvWriter csv(partial, {"depth_m", "force_N", "fastest_m_s", "overlap_ratio", "rebuild_count",
-                          "wall_s", "grain_count", "blow_up_name"});
+                          "wall_s", "grain_count", "solid_share_ratio", "blow_up_name"});
   // What is no number keeps to what a cell may hold.
   std::string blow_up = curve.blow_up;
   std::replace_if(
@@ -154,7 +156,7 @@ void write_curve(const std::filesystem::path& file, const PressCurve& curve) {
       ' ');
   for (const PressSample& s : curve.samples) {
     csv.row({s.depth_m, s.force_N, s.fastest_m_s, s.overlap_ratio, s.rebuild_count, s.wall_s,
-             curve.grain_count, std::string_view(blow_up)});
+             curve.grain_count, curve.solid_share, std::string_view(blow_up)});
   }
   csv.close();
   std::filesystem::rename(partial, file);
@@ -173,6 +175,7 @@ PressCurve read_curve(const std::filesystem::path& file) {
                              column("fastest_m_s").numbers[i], column("overlap_ratio").numbers[i],
                              column("rebuild_count").numbers[i], column("wall_s").numbers[i]});
     curve.grain_count = column("grain_count").numbers[i];
+    curve.solid_share = column("solid_share_ratio").numbers[i];
     curve.blow_up = column("blow_up_name").texts[i];
   }
   return curve;

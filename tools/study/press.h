@@ -48,6 +48,7 @@ struct PressCurve {
   std::vector<PressSample> samples;
   std::string blow_up;  // the engine's words where the bed blew up; empty else
   double grain_count = 0;
+  double solid_share = 0;  // of the bed before it was pressed
 
   /// Mean force while the sole is within half_window_m of a depth; NaN where the run does not
   /// reach.

@@ -51,6 +51,7 @@ sim::BedSettings StudyBench::bed(double scale, const Box& box, bool periodic) co
   bed.grain_scale *= scale;
   bed.skin_m *= scale;
   bed.steps_per_ms = int(std::ceil(bed.steps_per_ms / scale));
+  bed.settling_steps_per_ms = int(std::ceil(bed.settling_steps_per_ms / scale));
   bed.validate();
   return bed;
 }

@@ -70,10 +70,12 @@ TEST_CASE("a curve is read back as it was written, and a damaged one names its f
   const auto file = scratch.path() / "c.csv";
   PressCurve curve;
   curve.grain_count = 7;
+  curve.solid_share = 0.6;
   curve.samples = {{-1e-4, 0, 0.1, 0.2, 3, 0.4}, {1.0 / 3, 2.0 / 3, 5, 6, 7, 8}};
   write_curve(file, curve);
   const PressCurve read = read_curve(file);
   CHECK(read.grain_count == 7);
+  CHECK(read.solid_share == 0.6);
   REQUIRE(read.samples.size() == 2);
   CHECK(read.samples[0].depth_m == -1e-4);
   CHECK(read.samples[1].force_N == 2.0 / 3);
