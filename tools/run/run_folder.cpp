@@ -40,9 +40,14 @@ bool may_be_replaced(const fs::path& path) {
          fs::exists(path / "result.json", error);
 }
 
+constexpr char kPartial[] = ".partial";
+
+std::string hidden_name(const fs::path& path, const std::string& ending) {
+  return "." + path.filename().string() + ending + "-";
+}
+
 fs::path hidden_sibling(const fs::path& path, const std::string& ending) {
-  return path.parent_path() /
-         ("." + path.filename().string() + ending + "-" + std::to_string(getpid()));
+  return path.parent_path() / (hidden_name(path, ending) + std::to_string(getpid()));
 }
 
 // "a/b/" and "a/b" name the same folder, but only the latter has a file name.
@@ -51,6 +56,10 @@ fs::path without_trailing_slash(const fs::path& path) {
 }
 
 }  // namespace
+
+fs::path resume_path(const fs::path& run) {
+  return run.string() + kResumeEnding;
+}
 
 RunFolder::RunFolder(RunFolderOptions options) : options_(std::move(options)) {
   final_path_ = options_.out.empty()
@@ -68,8 +77,32 @@ RunFolder::RunFolder(RunFolderOptions options) : options_(std::move(options)) {
   std::error_code error;
   fs::create_directories(final_path_.parent_path(), error);
   if (error) fail(final_path_.parent_path(), "make this folder", error);
-  const fs::path partial = hidden_sibling(final_path_, ".partial");
-  fs::create_directory(partial, error);
+  remove_abandoned();
+  make_working_folder();
+}
+
+void RunFolder::remove_abandoned() {
+  std::error_code error;
+  std::vector<fs::path> found;
+  for (const auto& entry : fs::directory_iterator(final_path_.parent_path(), error)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with(hidden_name(final_path_, kPartial))) found.push_back(entry.path());
+  }
+  for (const fs::path& folder : found) {
+    const FolderLock lock(folder);
+    if (lock.held() && fs::remove_all(folder, error) > 0 && !error) removed_.push_back(folder);
+  }
+}
+
+void RunFolder::make_working_folder() {
+  // It gets its name once it is locked: at no time does it look abandoned.
+  const fs::path fresh = hidden_sibling(final_path_, ".new");
+  std::error_code error;
+  fs::create_directory(fresh, error);
+  if (error) fail(fresh, "make this folder", error);
+  lock_.emplace(fresh);
+  const fs::path partial = hidden_sibling(final_path_, kPartial);
+  fs::rename(fresh, partial, error);
   if (error) fail(partial, "make this folder", error);
   working_path_ = partial;
 }
@@ -83,7 +116,7 @@ fs::path RunFolder::next_default_path() const {
   const std::string stem = options_.experiment + "-" + today() + "-";
   for (int n = 1;; ++n) {
     fs::path path = fs::absolute(options_.runs_root) / (stem + std::to_string(n));
-    if (!stands_at(path)) return path;
+    if (!stands_at(path) && !stands_at(resume_path(path))) return path;
   }
 }
 

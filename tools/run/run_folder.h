@@ -1,7 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <vector>
+
+#include "tools/run/folder_lock.h"
 
 namespace hoof::tools {
 
@@ -13,6 +17,12 @@ struct RunFolderOptions {
   std::filesystem::path runs_root = "runs";  ///< where default folders are made
 };
 
+inline constexpr char kResumeEnding[] = ".resume";
+
+/// Beside a run's final path: where an unfinished run keeps what it takes to finish it after it
+/// was cut off. A default name is not given to a new run while this folder is there.
+std::filesystem::path resume_path(const std::filesystem::path& run);
+
 /// The folder of one run. All files are written into a hidden sibling of the final path, so that
 /// nothing half-written ever stands at the final path; commit() renames it there. Without
 /// commit() or keep_as() the destructor removes what was written.
@@ -20,7 +30,8 @@ struct RunFolderOptions {
 class RunFolder {
  public:
   /// Refuses at once, before any work is done, if the final path exists and `force` is not set.
-  /// `force` replaces run folders and empty folders only, never some other folder.
+  /// `force` replaces run folders and empty folders only, never some other folder. What a killed
+  /// run of the same name left half-written is removed.
   explicit RunFolder(RunFolderOptions options);
   ~RunFolder();
   RunFolder(const RunFolder&) = delete;
@@ -29,6 +40,11 @@ class RunFolder {
   /// Path to write the file `name` at, inside the hidden folder.
   std::filesystem::path file(const std::string& name) const { return working_path_ / name; }
   const std::filesystem::path& working_path() const { return working_path_; }
+  /// Where commit() will move the run, unless a default name is taken by then.
+  const std::filesystem::path& final_path() const { return final_path_; }
+
+  /// Folders of killed runs that were removed.
+  const std::vector<std::filesystem::path>& removed() const { return removed_; }
 
   /// Moves the finished run to its final path and returns that. A default name that another run
   /// has taken in the meantime is replaced by the next free one.
@@ -40,11 +56,15 @@ class RunFolder {
 
  private:
   std::filesystem::path next_default_path() const;
+  void remove_abandoned();
+  void make_working_folder();
   void replace(const std::filesystem::path& old_run);
 
   RunFolderOptions options_;
   std::filesystem::path final_path_;
   std::filesystem::path working_path_;  // empty once renamed
+  std::optional<FolderLock> lock_;      // tells others that this run lives
+  std::vector<std::filesystem::path> removed_;
 };
 
 }  // namespace hoof::tools

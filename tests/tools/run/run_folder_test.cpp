@@ -138,3 +138,55 @@ TEST_CASE("a folder that cannot be made is named with the reason") {
   CHECK_THROWS_WITH(RunFolder(at(scratch.path() / "file" / "run")),
                     Catch::Contains("file") && Catch::Contains("Not a directory"));
 }
+
+TEST_CASE("what a killed run of the same name left is removed, what a living one writes is not") {
+  const ScratchFolder scratch;
+  const fs::path out = scratch.path() / "run";
+  // Process ids that no process has: above the kernel's limit of 2^22.
+  const fs::path killed = scratch.path() / ".run.partial-99999999",
+                 other = scratch.path() / ".run-2.partial-99999999",
+                 living = scratch.path() / ".run.partial-99999998";
+  for (const fs::path& folder : {killed, other, living}) {
+    fs::create_directory(folder);
+    write_file(folder / "samples.csv", "half");
+  }
+  const FolderLock alive(living);
+  REQUIRE(alive.held());
+  RunFolder run(at(out));
+  CHECK(run.removed() == std::vector<fs::path>{killed});
+  CHECK_FALSE(fs::exists(killed));
+  CHECK(fs::exists(living / "samples.csv"));
+  CHECK(fs::exists(other / "samples.csv"));
+  // This one's own is locked under whatever name.
+  CHECK(FolderLock(run.working_path()).taken());
+  write_run(run, "a = 1\n");
+  CHECK(FolderLock(run.commit()).taken());
+}
+
+TEST_CASE("a default name is not given anew while its run can be resumed") {
+  const ScratchFolder scratch;
+  const RunFolderOptions options{"sinkage", "", false, scratch.path() / "runs"};
+  fs::path first;
+  {
+    const RunFolder run(options);
+    first = run.final_path();
+  }
+  CHECK_THAT(first.filename().string(), Catch::EndsWith("-1"));
+  fs::create_directory(resume_path(first));
+  CHECK_THAT(RunFolder(options).final_path().filename().string(), Catch::EndsWith("-2"));
+}
+
+TEST_CASE("a lock is let go of with its owner, and where there is no folder there is none") {
+  const ScratchFolder scratch;
+  {
+    const FolderLock first(scratch.path());
+    CHECK(first.held());
+    const FolderLock second(scratch.path());
+    CHECK(second.taken());
+    CHECK_FALSE(second.held());
+  }
+  CHECK(FolderLock(scratch.path()).held());
+  const FolderLock nothing(scratch.path() / "nothing");
+  CHECK_FALSE(nothing.held());
+  CHECK_FALSE(nothing.taken());
+}
