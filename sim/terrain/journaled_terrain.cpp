@@ -58,7 +58,7 @@ void JournaledTerrain::open() {
   resume_from_ = std::move(search.found);
   if (resume_from_) {
     last_checkpoint_ = resume_from_->step;
-    note("resuming from the checkpoint at " + milliseconds(resume_from_->time_s) +
+    note("going over what was done, up to the checkpoint at " + milliseconds(resume_from_->time_s) +
          " in the ground");
   } else if (!search.refused.empty()) {
     note("no checkpoint can be used; the run begins anew");
@@ -86,6 +86,7 @@ void JournaledTerrain::advance(double interval_s, std::span<const BodyMotion> mo
   if (replaying() && intervals_ == resume_from_->step) {
     ground_->restore(resume_from_->payload);
     resume_from_.reset();
+    note("the ground goes on from its checkpoint");
     next_checkpoint_s_ = clock_s() + settings_.checkpoint_every_s;
   } else if (is_time()) {
     next_checkpoint_s_ = clock_s() + settings_.checkpoint_every_s;

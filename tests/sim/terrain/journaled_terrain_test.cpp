@@ -146,8 +146,9 @@ TEST_CASE("a run cut off many times ends with the same numbers as the undisturbe
   last.advance(whole);
   CHECK(last.trace == expected);
   CHECK(last.counts.advances == whole - kept);
-  CHECK(last.notes.size() == 1);
-  CHECK_THAT(last.notes.at(0), Catch::StartsWith("resuming from the checkpoint at"));
+  CHECK(last.notes.size() == 2);
+  CHECK_THAT(last.notes.at(0),
+             Catch::StartsWith("going over what was done, up to the checkpoint at "));
 }
 
 TEST_CASE("checkpoints come by the clock, and none while the journal answers") {
@@ -187,10 +188,10 @@ TEST_CASE("a damaged checkpoint is named, and the one before it is used") {
     run.advance(100);
     CHECK(run.trace == undisturbed(100));
     CHECK(run.counts.advances == 70);
-    REQUIRE(run.notes.size() == 2);
+    REQUIRE(run.notes.size() == 3);
     CHECK(run.notes[0] ==
           newest.string() + " is damaged: its checksum does not match; it is not used");
-    CHECK(run.notes[1] == "resuming from the checkpoint at 30 ms in the ground");
+    CHECK(run.notes[1] == "going over what was done, up to the checkpoint at 30 ms in the ground");
   }
   // Neither can be used: anew.
   write_bytes(folder.path() / "checkpoint-1", "");
@@ -198,7 +199,8 @@ TEST_CASE("a damaged checkpoint is named, and the one before it is used") {
   run.advance(100);
   CHECK(run.trace == undisturbed(100));
   CHECK(run.counts.advances == 100);
-  CHECK(run.notes.size() == 3);
+  REQUIRE(run.notes.size() == 3);
+  CHECK(run.notes[2] == "no checkpoint can be used; the run begins anew");
 }
 
 TEST_CASE("a journal torn anywhere ends there, and a checkpoint beyond its end is not used") {
