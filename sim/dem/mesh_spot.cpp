@@ -28,20 +28,24 @@ void keep_distinct(std::vector<MeshSpot>& spots, double radius_m) {
   // Of the radius. Vertices in single precision (STL) make steps of 1e-6 of it in a flat face.
   constexpr double kFlat = 1e-4;
   std::sort(spots.begin(), spots.end(), is_nearer);
-  std::size_t kept = 0;
-  for (MeshSpot& spot : spots) {
+  for (std::size_t i = 0; i < spots.size(); ++i) {
+    MeshSpot& spot = spots[i];
     spot.overlap_m = radius_m - spot.distance_m;
-    for (std::size_t k = 0; k < kept; ++k) {
+    for (std::size_t k = 0; k < i; ++k) {
+      const MeshSpot& nearer = spots[k];
       const double stands_out_m =
-          (spots[k].to_centre_m - spot.to_centre_m).dot(spots[k].normal) - kFlat * radius_m;
-      spot.overlap_m = std::min(spot.overlap_m, 0.5 * stands_out_m);
+          (nearer.to_centre_m - spot.to_centre_m).dot(nearer.normal) - kFlat * radius_m;
+      if (nearer.overlap_m > 0) {
+        spot.overlap_m = std::min(spot.overlap_m, 0.5 * stands_out_m);
+      } else if (spot.on_border && stands_out_m <= 0) {
+        spot.overlap_m = 0;  // it may belong to a neighbour that comes nearer elsewhere
+      }
     }
     // Only the nearest spot is sure to know inside from outside; one that differs is seen from
     // behind.
-    const bool agrees = kept == 0 || (spot.distance_m < 0) == (spots[0].distance_m < 0);
-    if (agrees && spot.overlap_m > 0) spots[kept++] = spot;
+    if ((spot.distance_m < 0) != (spots[0].distance_m < 0)) spot.overlap_m = 0;
   }
-  spots.resize(kept);
+  std::erase_if(spots, [](const MeshSpot& spot) { return spot.overlap_m <= 0; });
 }
 
 }  // namespace hoof::sim

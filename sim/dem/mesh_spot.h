@@ -15,6 +15,7 @@ struct MeshSpot {
   double distance_m = 0;        // of the centre, along the normal: negative inside a closed body
   double overlap_m = 0;         // of the sphere
   std::uint32_t facet = 0;
+  bool on_border = false;  // of the triangle
 };
 
 /// The spot nearest to the centre, of at least one.
@@ -30,7 +31,10 @@ void turn_inside_out(std::vector<MeshSpot>& spots);
 /// edge or on a flat it never does, in a corner, or between two spines, it does. Two spots of
 /// overlap delta have contact discs of radius sqrt(r delta), which are apart where one stands out
 /// by 2 delta; up to there the overlap is half of what stands out, so that the seams of a hollow,
-/// finely cut surface are not felt twice either.
+/// finely cut surface are not felt twice either. A spot on the border of its triangle is shared
+/// with a neighbour; where that comes nearer to the centre the spot is no place of contact at all,
+/// which shows in the neighbour's own spot: a triangle lies behind the plane through its closest
+/// point.
 /// @param spots of one closed body or of one sheet; seen from outside unless turned inside out
 void keep_distinct(std::vector<MeshSpot>& spots, double radius_m);
 

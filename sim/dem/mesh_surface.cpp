@@ -187,6 +187,7 @@ bool MeshSurface::find_spot(std::uint32_t facet, const Eigen::Vector3d& p, doubl
     spot.normal = closest.to_p_m / spot.distance_m;
   }
   spot.facet = facet;
+  spot.on_border = closest.part != FacetPart::kInside;
   spot.to_centre_m = closest.to_p_m;
   spot.point_m = p - closest.to_p_m;
   return true;
