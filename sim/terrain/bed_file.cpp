@@ -51,7 +51,7 @@ class Cursor {
   std::size_t at_;
 };
 
-BedState parse(const std::string& bytes, const std::string& key) {
+KeptBed parse(const std::string& bytes) {
   const std::size_t magic = sizeof kMagic - 1;
   if (bytes.compare(0, magic, kMagic) != 0) throw std::runtime_error("is not a bed file");
   if (bytes.size() < magic + sizeof(std::uint64_t)) throw std::runtime_error("is truncated");
@@ -60,11 +60,10 @@ BedState parse(const std::string& bytes, const std::string& key) {
     throw std::runtime_error("is damaged or truncated: its checksum does not match");
   }
   const std::size_t end_of_key = bytes.find('\n', magic);
-  if (end_of_key == std::string::npos || bytes.substr(magic, end_of_key - magic) != key) {
-    throw std::runtime_error("was made from other settings");
-  }
+  if (end_of_key == std::string::npos) throw std::runtime_error("says not what it was made from");
   Cursor cursor(bytes, end_of_key + 1);
-  BedState state;
+  KeptBed bed{bytes.substr(magic, end_of_key - magic), {}};
+  BedState& state = bed.state;
   const auto grains = cursor.get<std::uint64_t>(), contacts = cursor.get<std::uint64_t>();
   for (std::uint64_t i = 0; i < grains; ++i) {
     Grain g;
@@ -82,7 +81,7 @@ BedState parse(const std::string& bytes, const std::string& key) {
     c.xi_m = cursor.vector();
     state.contacts.push_back(c);
   }
-  return state;
+  return bed;
 }
 
 /// All bytes or no file.
@@ -134,16 +133,22 @@ void require_writable(const std::filesystem::path& file) {
   std::filesystem::remove(trial);
 }
 
-BedState read_bed_file(const std::filesystem::path& file, const std::string& key) {
+KeptBed read_bed_file(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) throw std::runtime_error("cannot read " + file.string() + ": " + std::strerror(errno));
   std::stringstream bytes;
   bytes << in.rdbuf();
   try {
-    return parse(bytes.str(), key);
+    return parse(bytes.str());
   } catch (const std::runtime_error& e) {
     throw std::runtime_error(file.string() + " " + e.what());
   }
+}
+
+BedState read_bed_file(const std::filesystem::path& file, const std::string& key) {
+  KeptBed bed = read_bed_file(file);
+  if (bed.key != key) throw std::runtime_error(file.string() + " was made from other settings");
+  return std::move(bed.state);
 }
 
 }  // namespace hoof::sim

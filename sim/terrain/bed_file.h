@@ -26,4 +26,12 @@ void require_writable(const std::filesystem::path& file);
 /// key
 BedState read_bed_file(const std::filesystem::path& file, const std::string& key);
 
+struct KeptBed {
+  std::string key;  // what it was made from
+  BedState state;
+};
+
+/// Any bed, whatever it was made from. @throws std::runtime_error naming the file
+KeptBed read_bed_file(const std::filesystem::path& file);
+
 }  // namespace hoof::sim

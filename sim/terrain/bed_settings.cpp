@@ -23,6 +23,42 @@ ElasticMaterial elastic(const Material& m) {
   return {m.young_Pa.value, m.poisson.value, m.density_kg_m3.value};
 }
 
+std::vector<SieveClass> read_sieve_lists(Reader& section) {
+  std::vector<double> low, high, share;
+  section.numbers("sieve_low_mm", low, kMillimetre, 0.05, 100);
+  section.numbers("sieve_high_mm", high, kMillimetre, 0.05, 100);
+  section.numbers("mass_share_ratio", share, kUnitless, 0, 1);
+  if (low.size() != high.size() || low.size() != share.size()) {
+    section.fail("mass_share_ratio",
+                 "sieve_low_mm, sieve_high_mm and mass_share_ratio must be "
+                 "equally long");
+  }
+  std::vector<SieveClass> sieve;
+  for (std::size_t i = 0; i < low.size(); ++i) sieve.push_back({low[i], high[i], share[i]});
+  return sieve;
+}
+
+/// A table in a file takes the place of the lists, which a preset may still hold.
+std::vector<SieveClass> read_sieve_file(Reader& section) {
+  for (const char* list : {"sieve_low_mm", "sieve_high_mm", "mass_share_ratio"}) {
+    std::vector<double> unused;
+    if (section.has(list)) section.numbers(list, unused, kUnitless, 0, 100);
+  }
+  std::string file;
+  section.text("sieve_file", file);
+  SieveSelection selection;
+  if (section.has("sieve_range_mm")) {
+    std::vector<double> range_m;
+    section.numbers("sieve_range_mm", range_m, kMillimetre, 0, 100);
+    if (range_m.size() != 2) section.fail("sieve_range_mm", "must be two numbers: from, to");
+    selection.from_m = range_m[0], selection.to_m = range_m[1];
+  }
+  if (section.has("sieve_scale_ratio")) {
+    section.number("sieve_scale_ratio", selection.scale, kUnitless, 0.05, 50);
+  }
+  return read_sieve_table(file, selection);
+}
+
 }  // namespace
 
 double BedSettings::d50_m() const {
@@ -71,16 +107,7 @@ BedSettings read_bed(Reader section) {
   std::string sides, cap, rolling, precision;
   section.choice("sides", sides, {"walls", "periodic"});
   bed.periodic_sides = sides == "periodic";
-  std::vector<double> low, high, share;
-  section.numbers("sieve_low_mm", low, kMillimetre, 0.05, 100);
-  section.numbers("sieve_high_mm", high, kMillimetre, 0.05, 100);
-  section.numbers("mass_share_ratio", share, kUnitless, 0, 1);
-  if (low.size() != high.size() || low.size() != share.size()) {
-    section.fail("mass_share_ratio",
-                 "sieve_low_mm, sieve_high_mm and mass_share_ratio must be "
-                 "equally long");
-  }
-  for (std::size_t i = 0; i < low.size(); ++i) bed.sieve.push_back({low[i], high[i], share[i]});
+  bed.sieve = section.has("sieve_file") ? read_sieve_file(section) : read_sieve_lists(section);
   section.number("grain_scale_ratio", bed.grain_scale, kUnitless, 0.05, 50);
   section.integer("steps_per_ms", bed.steps_per_ms, 10, 100000);
   section.integer("settling_steps_per_ms", bed.settling_steps_per_ms, 1, 100000);

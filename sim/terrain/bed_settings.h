@@ -7,19 +7,13 @@
 #include "sim/config/materials.h"
 #include "sim/config/reader.h"
 #include "sim/dem/sand_bed.h"
+#include "sim/terrain/bed_sieve_table.h"
 
 namespace hoof::sim {
 
 /// Solids over volume of the bed that is aimed at, and that the amount poured follows from: the
 /// paper's count and grading fill its box to its 120 mm at this share.
 inline constexpr double kSettledShare = 0.60;
-
-/// One sieve class: mass uniform in diameter between the two sizes.
-struct SieveClass {
-  double low_m = 0;
-  double high_m = 0;
-  double mass_share = 0;
-};
 
 /// The bed stands on its floor z = -depth_m, centred about x = y = 0, its level surface z = 0.
 struct BedSettings {

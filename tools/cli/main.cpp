@@ -75,6 +75,7 @@ int main(int argc, char** argv) {
   add_sinkage_command(app, invocation);
   add_traction_command(app, invocation);
   add_study_command(app, invocation);
+  add_bed_command(app, invocation);
   add_order_command(app, invocation);
   add_dbc_command(app, invocation);
   add_trajectory_command(app);

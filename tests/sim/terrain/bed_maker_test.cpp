@@ -60,7 +60,7 @@ TEST_CASE("a made bed is level, at rest and as dense as poured grains") {
   CHECK(report.coordination_number > 3.5);
   CHECK(report.coordination_number < 6);
   // 52 grains in each of twelve regions.
-  CHECK(report.largest_cell_deviation < 0.25);
+  CHECK(report.largest_region_deviation < 0.25);
 }
 
 TEST_CASE("a bed depends on its seed and on nothing else") {
