@@ -71,6 +71,19 @@ class BoundaryRig {
     for (int i = 0; i < steps; ++i) step();
   }
 
+  /// Takes over grains and time of another rig.
+  void continue_from(const BoundaryRig& other) {
+    records_ = other.records_;
+    time_s_ = other.time_s_;
+  }
+
+  /// @param old_row of every new row
+  void reorder(const std::vector<std::uint32_t>& old_row) {
+    const auto before = records_;
+    for (std::uint32_t row = 0; row < count_; ++row) records_[row] = before[old_row[row]];
+    boundary_.reorder(old_row);
+  }
+
   /// Half a step behind the positions, as the speeds are.
   double kinetic_energy_J() const {
     double sum = 0;
