@@ -47,42 +47,50 @@ TEST_CASE("collisions keep linear momentum, rolling friction on") {
   INFO("seed " << seed);
   DemSettings s = paper_settings(6.6e-3 * 5);
   s.periodic = {true, true, true};
-  SandBed bed(s, gas(10, 1.0, seed));
-  const Eigen::Vector3d before = bed.momentum_kg_m_s();
-  double scale = 0;
-  for (const Grain& g : bed.state().grains) scale += grain_mass_kg(2 * g.radius_m) * g.v_m_s.norm();
-  bed.advance(4000);
-  CHECK(bed.health().rebuilds > 10);
-  CHECK(bed.kinetic_energy_J() < 0.9 * 0.5 * scale);  // they did collide
-  // Both sides of a contact are computed with the same operations, so only the sums round:
-  // sqrt(4000 steps x 4 contacts) x 6e-8 of a typical grain's share.
-  CHECK((bed.momentum_kg_m_s() - before).norm() < 1e-6 * scale);
+  for (const Precision precision : {Precision::kMixed, Precision::kDouble}) {
+    s.precision = precision;
+    SandBed bed(s, gas(10, 1.0, seed));
+    const Eigen::Vector3d before = bed.momentum_kg_m_s();
+    double scale = 0;
+    for (const Grain& g : bed.state().grains) {
+      scale += grain_mass_kg(2 * g.radius_m) * g.v_m_s.norm();
+    }
+    bed.advance(4000);
+    CHECK(bed.health().rebuilds > 10);
+    CHECK(bed.kinetic_energy_J() < 0.9 * 0.5 * scale);  // they did collide
+    // Both sides of a contact are computed with the same operations, so only the sums round:
+    // sqrt(4000 steps x 4 contacts) times 6e-8, or 1e-16, of a typical grain's share.
+    const double tolerance = precision == Precision::kDouble ? 1e-14 : 1e-6;
+    CHECK((bed.momentum_kg_m_s() - before).norm() < tolerance * scale);
+  }
 }
 
 TEST_CASE("collisions keep angular momentum when there is no rolling friction") {
   DemSettings s = paper_settings(0.1);
-  s.precision = Precision::kDouble;
-  s.grain_grain.rolling_friction = 0;
   BedState start = gas(4, 1.0, 7);
   for (Grain& g : start.grains) g.v_m_s -= 0.5 * g.p_m / 6.6e-3;  // flying together
-  SandBed bed(s, start);
   const Eigen::Vector3d before = angular_momentum(start);
   double scale = 0;
   for (const Grain& g : start.grains) {
     scale += grain_mass_kg(2 * g.radius_m) * g.p_m.norm() * g.v_m_s.norm();
   }
-  const double energy = bed.kinetic_energy_J();
-  bed.advance(4000);
-  CHECK(bed.kinetic_energy_J() < 0.8 * energy);
-  // Exact but for the leapfrog's half step between p and v (a collision lasts 60 steps) and the
-  // arms r - delta/2 of unequal grains, which meet a third of an overlap apart: delta/r is 1e-2
-  // here.
-  CHECK((angular_momentum(bed.state()) - before).norm() < 2e-4 * scale);
+  for (const Precision precision : {Precision::kMixed, Precision::kDouble}) {
+    s.precision = precision;
+    s.grain_grain.rolling_friction = 0;
+    SandBed bed(s, start);
+    const double energy = bed.kinetic_energy_J();
+    bed.advance(4000);
+    CHECK(bed.kinetic_energy_J() < 0.8 * energy);
+    // Exact but for the leapfrog's half step between p and v (a collision lasts 60 steps) and the
+    // arms r - delta/2 of unequal grains, which meet a third of an overlap apart: delta/r is 1e-2
+    // here.
+    CHECK((angular_momentum(bed.state()) - before).norm() < 2e-4 * scale);
 
-  s.grain_grain.rolling_friction = 0.34;
-  SandBed rolling(s, start);
-  rolling.advance(4000);
-  CHECK((angular_momentum(rolling.state()) - before).norm() > 1e-3 * scale);
+    s.grain_grain.rolling_friction = 0.34;
+    SandBed rolling(s, start);
+    rolling.advance(4000);
+    CHECK((angular_momentum(rolling.state()) - before).norm() > 1e-3 * scale);
+  }
 }
 
 TEST_CASE("elastic grains without friction keep their energy") {
