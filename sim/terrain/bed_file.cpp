@@ -7,81 +7,36 @@
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
-#include <type_traits>
 
 namespace hoof::sim {
 namespace {
 
 constexpr char kMagic[] = "hoof bed 1\n";
 
-class Writer {
- public:
-  template <typename T>
-  void put(const T& value) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
-  }
-  void put(const Eigen::Vector3d& v) { put(v.x()), put(v.y()), put(v.z()); }
-  void text(const std::string& s) { bytes_ += s; }
-  std::string& bytes() { return bytes_; }
-
- private:
-  std::string bytes_;
-};
-
-class Cursor {
- public:
-  explicit Cursor(const std::string& bytes, std::size_t at) : bytes_(bytes), at_(at) {}
-  template <typename T>
-  T get() {
-    T value;
-    if (at_ + sizeof value > bytes_.size()) throw std::runtime_error("is truncated");
-    std::memcpy(&value, bytes_.data() + at_, sizeof value);
-    at_ += sizeof value;
-    return value;
-  }
-  Eigen::Vector3d vector() {
-    const double x = get<double>(), y = get<double>(), z = get<double>();
-    return {x, y, z};
-  }
-
- private:
-  const std::string& bytes_;
-  std::size_t at_;
-};
+/// Written number by number: Eigen's vectors as three doubles, without padding between members.
+void put(ByteWriter& w, const Eigen::Vector3d& v) {
+  w.put(v.x()), w.put(v.y()), w.put(v.z());
+}
+Eigen::Vector3d get_vector(ByteReader& r) {
+  const double x = r.get<double>(), y = r.get<double>(), z = r.get<double>();
+  return {x, y, z};
+}
 
 KeptBed parse(const std::string& bytes) {
   const std::size_t magic = sizeof kMagic - 1;
   if (bytes.compare(0, magic, kMagic) != 0) throw std::runtime_error("is not a bed file");
   if (bytes.size() < magic + sizeof(std::uint64_t)) throw std::runtime_error("is truncated");
   const std::size_t body = bytes.size() - sizeof(std::uint64_t);
-  if (Cursor(bytes, body).get<std::uint64_t>() != fnv1a(bytes.data(), body)) {
+  if (ByteReader(std::string_view(bytes).substr(body)).get<std::uint64_t>() !=
+      fnv1a(bytes.data(), body)) {
     throw std::runtime_error("is damaged or truncated: its checksum does not match");
   }
   const std::size_t end_of_key = bytes.find('\n', magic);
   if (end_of_key == std::string::npos) throw std::runtime_error("says not what it was made from");
-  Cursor cursor(bytes, end_of_key + 1);
-  KeptBed bed{bytes.substr(magic, end_of_key - magic), {}};
-  BedState& state = bed.state;
-  const auto grains = cursor.get<std::uint64_t>(), contacts = cursor.get<std::uint64_t>();
-  for (std::uint64_t i = 0; i < grains; ++i) {
-    Grain g;
-    g.id = cursor.get<std::uint32_t>();
-    g.radius_m = cursor.get<double>();
-    g.p_m = cursor.vector();
-    g.v_m_s = cursor.vector();
-    g.w_rad_s = cursor.vector();
-    state.grains.push_back(g);
-  }
-  for (std::uint64_t i = 0; i < contacts; ++i) {
-    GrainContact c;
-    c.i = cursor.get<std::uint32_t>();
-    c.j = cursor.get<std::uint32_t>();
-    c.xi_m = cursor.vector();
-    state.contacts.push_back(c);
-  }
-  return bed;
+  ByteReader state(std::string_view(bytes).substr(0, body).substr(end_of_key + 1));
+  return {bytes.substr(magic, end_of_key - magic), get_state(state)};
 }
 
 /// All bytes or no file.
@@ -111,20 +66,41 @@ std::uint64_t fnv1a(const void* bytes, std::size_t size, std::uint64_t hash) {
   return hash;
 }
 
-void write_bed_file(const std::filesystem::path& file, const std::string& key,
-                    const BedState& state) {
-  Writer w;
-  w.text(kMagic);
-  w.text(key + "\n");
+void put_state(ByteWriter& w, const BedState& state) {
   w.put(std::uint64_t(state.grains.size()));
   w.put(std::uint64_t(state.contacts.size()));
   for (const Grain& g : state.grains) {
-    w.put(g.id), w.put(g.radius_m), w.put(g.p_m), w.put(g.v_m_s), w.put(g.w_rad_s);
+    w.put(g.id), w.put(g.radius_m), put(w, g.p_m), put(w, g.v_m_s), put(w, g.w_rad_s);
   }
-  for (const GrainContact& c : state.contacts) w.put(c.i), w.put(c.j), w.put(c.xi_m);
-  w.put(fnv1a(w.bytes().data(), w.bytes().size()));
+  for (const GrainContact& c : state.contacts) w.put(c.i), w.put(c.j), put(w, c.xi_m);
+}
 
-  write_whole(file, w.bytes());
+BedState get_state(ByteReader& r) {
+  BedState state;
+  const auto grains = r.get<std::uint64_t>(), contacts = r.get<std::uint64_t>();
+  for (std::uint64_t i = 0; i < grains; ++i) {
+    Grain g;
+    r.get(g.id), r.get(g.radius_m);
+    g.p_m = get_vector(r), g.v_m_s = get_vector(r), g.w_rad_s = get_vector(r);
+    state.grains.push_back(g);
+  }
+  for (std::uint64_t i = 0; i < contacts; ++i) {
+    GrainContact c;
+    r.get(c.i), r.get(c.j);
+    c.xi_m = get_vector(r);
+    state.contacts.push_back(c);
+  }
+  return state;
+}
+
+void write_bed_file(const std::filesystem::path& file, const std::string& key,
+                    const BedState& state) {
+  ByteWriter numbers;
+  put_state(numbers, state);
+  std::string bytes = kMagic + key + "\n" + numbers.take();
+  ByteWriter checksum;
+  checksum.put(fnv1a(bytes.data(), bytes.size()));
+  write_whole(file, bytes += checksum.bytes());
 }
 
 void require_writable(const std::filesystem::path& file) {

@@ -5,12 +5,17 @@
 #include <filesystem>
 #include <string>
 
+#include "sim/dem/byte_archive.h"
 #include "sim/dem/grain.h"
 
 namespace hoof::sim {
 
 /// FNV-1a, 64 bits.
 std::uint64_t fnv1a(const void* bytes, std::size_t size, std::uint64_t hash = 0xcbf29ce484222325u);
+
+/// A state as numbers in a row. @throws std::runtime_error "is truncated"
+void put_state(ByteWriter& writer, const BedState& state);
+BedState get_state(ByteReader& reader);
 
 /// Writes to a temporary file beside and renames it: a bed file is whole or not there.
 /// @param key what the bed was made from; read_bed_file can ask for it

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "sim/terrain/bed_file.h"
+
 namespace hoof::sim {
 namespace {
 
@@ -170,8 +172,32 @@ void BedMaking::begin_fall() {
 void BedMaking::begin_level() {
   state_ = sand_->state();
   scrape(state_);
+  start_level();
+}
+
+void BedMaking::start_level() {
   sand_ = std::make_unique<SandBed>(dem_, state_);
   lift_energy_J_ = lift_energy_J(state_, dem_);
+}
+
+std::string BedMaking::snapshot() const {
+  if (stage_ != Stage::kLevel || stage_time_s_ > 0) return {};
+  ByteWriter w;
+  w.put(share_done_), w.put(steps_);
+  put_state(w, state_);
+  return w.take();
+}
+
+void BedMaking::restore(std::string_view snapshot) {
+  ByteReader r(snapshot);
+  r.get(share_done_), r.get(steps_);
+  state_ = get_state(r);
+  if (!r.at_end()) throw std::runtime_error("bed: the snapshot is too long");
+  stage_ = Stage::kLevel;
+  stage_time_s_ = highest_ratio_ = 0;
+  quiet_pieces_ = 0;
+  start_level();
+  sand_->set_viscous_rate(rule(stage_).viscous_rate_1_s);
 }
 
 void BedMaking::settle() {

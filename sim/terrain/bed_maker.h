@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 #include <string_view>
 
 #include "sim/terrain/bed_grading.h"
@@ -36,6 +37,14 @@ class BedMaking {
   /// Share of the work done: a guess, as nobody knows when grains come to rest. Never falls.
   double share_done() const { return share_done_; }
 
+  /// Bytes from which restore() goes on to the same bed, bit by bit. Empty while there are none:
+  /// so far a bed can be taken up again only where its sand is taken to pieces, after levelling.
+  std::string snapshot() const;
+
+  /// Goes on from a snapshot of a making with the same settings, materials and seed.
+  /// @throws std::runtime_error where the bytes are none
+  void restore(std::string_view snapshot);
+
   /// What is being done, for people: "placing grains", ...
   std::string_view stage_name() const;
 
@@ -53,6 +62,7 @@ class BedMaking {
   void begin(Stage stage);
   void begin_fall();
   void begin_level();
+  void start_level();
   void settle();
   double stage_share() const;
 

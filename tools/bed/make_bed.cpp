@@ -6,6 +6,7 @@
 
 #include "sim/terrain/bed_file.h"
 #include "sim/terrain/bed_maker.h"
+#include "sim/terrain/checkpoint_file.h"
 #include "tools/bed/bed_text.h"
 #include "tools/run/errors.h"
 #include "tools/run/progress_line.h"
@@ -38,13 +39,17 @@ class Making {
  public:
   Making(const ChosenBed& chosen, bool quiet)
       : chosen_(chosen),
+        quiet_(quiet),
         bed_(chosen.bed, chosen.materials, chosen.seed, chosen.threads),
+        checkpoints_(chosen.file.string() + ".making", chosen.key()),
         progress_("making the bed '" + chosen.bed.name + "'", choose_progress_style(quiet),
                   std::cerr) {}
 
   void go() {
+    resume();
     while (bed_.advance()) {
       progress_.update(bed_.share_done(), std::string(bed_.stage_name()));
+      keep();
       if (stop_.requested()) stop();
     }
     progress_.update(1);
@@ -52,24 +57,60 @@ class Making {
     sim::write_bed_file(chosen_.file, chosen_.key(), bed_.bed());
     write_making(chosen_.file,
                  {{"wall_s", wall_s()}, {"threads", chosen_.threads}, {"steps", bed_.steps()}});
+    checkpoints_.remove();
   }
 
  private:
   double wall_s() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    return earlier_wall_s_ +
+           std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+  void note(const std::string& text) const {
+    if (!quiet_) std::cerr << "hoof: " << text << "\n";
+  }
+
+  /// Goes on where an earlier making of the same bed was cut off.
+  void resume() {
+    const sim::CheckpointSearch search = checkpoints_.read_newest();
+    for (const std::string& refused : search.refused) note(refused);
+    if (!search.found) return;
+    sim::ByteReader payload(search.found->payload);
+    std::string snapshot;
+    payload.get(earlier_wall_s_);
+    payload.get_all(snapshot);
+    bed_.restore(snapshot);
+    kept_ = true;
+    note("going on with the bed '" + chosen_.bed.name + "': " + std::string(bed_.stage_name()) +
+         ", step " + std::to_string(bed_.steps()));
+  }
+
+  void keep() {
+    const std::string snapshot = bed_.snapshot();
+    if (snapshot.empty()) return;
+    sim::ByteWriter payload;
+    payload.put(wall_s());
+    payload.put_all(snapshot);
+    checkpoints_.write(bed_.steps(), 0, payload.bytes());
+    kept_ = true;
   }
 
   [[noreturn]] void stop() {
     progress_.finish();
-    throw Interrupted(
-        "stopped while the bed was " + std::string(bed_.stage_name()) + "; nothing was kept",
-        stop_.exit_status());
+    throw Interrupted("stopped while the bed was " + std::string(bed_.stage_name()) +
+                          (kept_ ? "; the same command goes on from where it was levelled"
+                                 : "; nothing is kept before it is levelled"),
+                      stop_.exit_status());
   }
 
   const ChosenBed& chosen_;
+  bool quiet_;
   StopRequest stop_;
   sim::BedMaking bed_;
+  sim::CheckpointFiles checkpoints_;
   ProgressLine progress_;
+  bool kept_ = false;
+  double earlier_wall_s_ = 0;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 

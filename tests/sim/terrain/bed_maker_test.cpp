@@ -90,3 +90,43 @@ TEST_CASE("progress grows to one, and stops the making when it says so") {
   CHECK(std::is_sorted(shares.begin(), shares.end()));
   CHECK(shares.back() == Approx(1));
 }
+
+TEST_CASE("a making that goes on from a snapshot ends with the same bed") {
+  BedSettings bed = small_bed();
+  bed.periodic_sides = GENERATE(false, true);
+  BedMaking undisturbed(bed, shipped_materials(), 3, 1);
+  std::string snapshot;
+  std::uint64_t at_step = 0;
+  double at_share = 0;
+  while (undisturbed.advance()) {
+    if (undisturbed.snapshot().empty()) continue;
+    snapshot = undisturbed.snapshot();
+    at_step = undisturbed.steps(), at_share = undisturbed.share_done();
+  }
+  REQUIRE_FALSE(snapshot.empty());
+  BedMaking resumed(bed, shipped_materials(), 3, 2);
+  resumed.restore(snapshot);
+  CHECK(resumed.steps() == at_step);
+  CHECK(resumed.share_done() == at_share);
+  CHECK(resumed.snapshot() == snapshot);
+  while (resumed.advance()) {
+  }
+  CHECK(resumed.steps() == undisturbed.steps());
+  CHECK(same_bits(resumed.bed(), undisturbed.bed()));
+
+  BedMaking damaged(bed, shipped_materials(), 3, 1);
+  CHECK_THROWS_WITH(damaged.restore(snapshot.substr(0, snapshot.size() - 1)), "is truncated");
+  CHECK_THROWS_WITH(damaged.restore(snapshot + "x"), "bed: the snapshot is too long");
+}
+
+TEST_CASE("a step that the smallest grain cannot follow is refused with what would do") {
+  BedSettings bed = small_bed();
+  // By hand, r = 2.5 mm: pi r sqrt(2650 / 71.4e6) / (0.1631 / 4 + 0.8766) = 52.2 us, of which 40 %
+  // are 20.86 us: 47.9 steps in a millisecond.
+  bed.settling_steps_per_ms = 47;
+  CHECK_THROWS_WITH(BedMaking(bed, shipped_materials(), 1, 1),
+                    Catch::StartsWith("bed.settling_steps_per_ms = 47: a step is ") &&
+                        Catch::Contains("at most 40 %: at least 48"));
+  bed.settling_steps_per_ms = 48;
+  CHECK_NOTHROW(BedMaking(bed, shipped_materials(), 1, 1));
+}
