@@ -75,6 +75,13 @@ MeshLoad Boundary::take_load(int mesh) {
   return std::exchange(meshes_[std::size_t(mesh)].load, {});
 }
 
+double Boundary::pending_work_J() const {
+  double work_J = 0;
+  for (const Mesh& m : meshes_) work_J += m.load.work_J;
+  for (const Patch& p : patches_) work_J += p.load.work_J;
+  return work_J;
+}
+
 double Boundary::take_deepest_ratio() {
   for (Patch& p : patches_) {
     deepest_ratio_ = std::max(deepest_ratio_, std::exchange(p.load.deepest_ratio, 0.0));
@@ -89,13 +96,12 @@ Vec3<double> Boundary::push(Grain& g, const Vec3<double>& n, double delta_m,
   const double arm_m = g.radius_m - 0.5 * delta_m;
   Touch<double> c;
   c.delta = delta_m;
-  c.R_eff = g.radius_m;
-  c.m_eff = g.mass_kg;
   c.n = n;
   c.v_rel = g.v_m_s - v_point_m_s;
   c.w_arm = arm_m * g.w_rad_s;
+  // Against a flat wall R_eff and m_eff are the grain's own.
   const TouchForce<double> f =
-      touch_force<double, double>(settings_.law, settings_.cap, g.dt_s, c, xi_m);
+      touch_force_of(settings_.law, settings_.cap, g.dt_s, c, g.radius_m, g.mass_kg, xi_m);
   const Vec3<double> force_N = f.f_normal + f.f_tangential;
   g.force_N = g.force_N + force_N;
   g.torque_Nm = g.torque_Nm + arm_m * cross(f.f_tangential, n);
@@ -110,10 +116,9 @@ Vec3<double> Boundary::push(Grain& g, const Vec3<double>& n, double delta_m,
   }
   if (settings_.account_energy) {
     g.energy.stored_normal_J += 0.4 * f.F_n_elastic * delta_m;
-    const double S_t = 8 * settings_.law.G_eff_Pa * std::sqrt(g.radius_m * delta_m);
-    account_work(g, c,
-                 {dot(f.f_normal, n) - f.F_n_elastic, f.f_tangential, 0.5 * S_t * dot(xi_m, xi_m)},
-                 account);
+    account_work(
+        g, c, {dot(f.f_normal, n) - f.F_n_elastic, f.f_tangential, 0.5 * f.S_t * dot(xi_m, xi_m)},
+        account);
   }
   return force_N;
 }
@@ -297,8 +302,7 @@ void Boundary::compute(const GrainRecord<Real>* records, const Domain& domain, d
     g.dt_s = dt_s;
     touch_walls(*b, g);
     if (b->memory >= 0) {
-      g.moved_m = moved_m(r, b->listed_at, domain) +
-                  domain.lsb_m.cwiseProduct(Eigen::Vector3d(r.rx, r.ry, r.rz));
+      g.moved_m = domain.moved_m(r, b->listed_at);
       touch_meshes(*b, g, workspace);
     }
     if (settings_.account_energy) {

@@ -67,6 +67,7 @@ class Boundary {
   int add_mesh(const TriangleMesh& mesh);
   int mesh_count() const { return int(meshes_.size()); }
   void set_law(const PairLaw<double>& law) { settings_.law = law; }
+  void set_skin(double skin_m) { settings_.skin_m = skin_m; }
 
   /// Begins an interval in which mesh i moves as motion says.
   void set_motion(int mesh, const MeshMotion& motion);
@@ -95,6 +96,8 @@ class Boundary {
 
   /// Load on mesh i since the last take; sums in row order, so independent of the threads.
   MeshLoad take_load(int mesh);
+  /// Work in the loads of all meshes that were not taken yet, J.
+  double pending_work_J() const;
 
   /// Tangential displacement of a grain on wall w; for saving and loading beds.
   bool wall_history(std::uint32_t row, int wall, Eigen::Vector3d& xi_m) const;
@@ -128,22 +131,10 @@ class Boundary {
     Pose now, at_search, at_listing;
     MeshLoad load;  // of contacts that are listed no longer
   };
-  struct Position {  // fixed point, as in the records
-    std::int32_t x, y, z;
-  };
-  template <typename Real>
-  static Eigen::Vector3d moved_m(const GrainRecord<Real>& r, const Position& since,
-                                 const Domain& domain) {
-    const auto steps = [](std::int32_t now, std::int32_t then) {  // wraps where the domain does
-      return double(std::int32_t(std::uint32_t(now) - std::uint32_t(then)));
-    };
-    return domain.lsb_m.cwiseProduct(
-        Eigen::Vector3d(steps(r.x, since.x), steps(r.y, since.y), steps(r.z, since.z)));
-  }
   struct Candidate {
     std::uint32_t row;
     std::uint32_t walls, meshes;  // a bit each
-    Position listed_at;
+    WholeSteps listed_at;
   };
   struct NearGrain {
     std::uint32_t row;
@@ -152,7 +143,7 @@ class Boundary {
     std::int32_t memory;                   // in memories_, if it has patches
     std::int32_t force;                    // in forces
     std::uint32_t account;                 // in energies_
-    Position listed_at;
+    WholeSteps listed_at;
   };
   struct Account {  // of one contact at the last step, only if energy is accounted
     double damping_N = 0;

@@ -71,7 +71,7 @@ double Boundary::furthest_candidate_m(const GrainRecord<Real>* records,
                                       const Domain& domain) const {
   double furthest2 = 0;
   for (const Candidate& c : candidates_) {
-    furthest2 = std::max(furthest2, moved_m(records[c.row], c.listed_at, domain).squaredNorm());
+    furthest2 = std::max(furthest2, domain.moved_m(records[c.row], c.listed_at).squaredNorm());
   }
   return std::sqrt(furthest2);
 }
@@ -179,7 +179,7 @@ void Boundary::list(const GrainRecord<Real>* records, std::uint32_t count, const
     b.wall_begin = std::uint32_t(wall_contacts_.size());
     b.patch_begin = std::uint32_t(patches_.size());
     GrainRecord<Real> whole_steps = r;  // what is below one step is added when it is used
-    whole_steps.rx = whole_steps.ry = whole_steps.rz = 0;
+    if constexpr (sizeof(Real) == 4) whole_steps.rx = whole_steps.ry = whole_steps.rz = 0;
     append_walls(c.walls, domain.position_m(r), reach_m);
     append_patches(c.meshes, domain.position_m(whole_steps), reach_m, domain);
     b.wall_end = std::uint32_t(wall_contacts_.size());

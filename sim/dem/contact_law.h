@@ -79,7 +79,7 @@ HOOF_INLINE bool any_lane<bool>(bool mask) {
 /// Geometry and motion of one touching pair, seen from grain i.
 template <typename T>
 struct Touch {
-  T delta, R_eff, m_eff;
+  T delta;
   Vec3<T> n;      // from the partner to i
   Vec3<T> v_rel;  // velocity of i's centre minus the partner's (centre or wall point)
   Vec3<T> w_arm;  // c_i omega_i + c_j omega_j, c = centre to contact point; m/s
@@ -90,22 +90,27 @@ struct TouchForce {
   Vec3<T> f_normal;      // on i, N
   Vec3<T> f_tangential;  // on i, acting at the contact point, N
   T F_n_elastic;         // N, the force rolling friction uses
+  // For the energy account.
+  T S_t;        // N/m
+  T v_n;        // m/s
+  T dashpot_n;  // Ns/m
+  Vec3<T> v_t;  // m/s
 };
 
 /// The force of one touch on grain i. Call only where delta > 0.
+/// @param a contact radius sqrt(R_eff delta), m  @param root sqrt(a m_eff)
 /// @param xi_t tangential displacement, m: read, advanced by dt and cut back where friction slips.
 /// The pull at the end of a contact (damping above the elastic force) is kept: cutting it off would
 /// turn e = 0.54 into 0.583.
 template <typename T, typename Real>
 HOOF_INLINE TouchForce<T> touch_force(const PairLaw<Real>& law, CoulombCap cap, Real dt_s,
-                                      const Touch<T>& c, Vec3<T>& xi_t) {
-  const T a = lane_sqrt(c.R_eff * c.delta);  // contact radius
+                                      const Touch<T>& c, T a, T root, Vec3<T>& xi_t) {
   const T S_t = Real(8) * law.G_eff_Pa * a;
-  const T root = lane_sqrt(a * c.m_eff);
 
   const T v_n = dot(c.v_rel, c.n);
   const T F_n_elastic = Real(4.0 / 3.0) * law.E_eff_Pa * a * c.delta;
-  const T F_n = F_n_elastic - law.dashpot_n * root * v_n;
+  const T dashpot_n = law.dashpot_n * root;
+  const T F_n = F_n_elastic - dashpot_n * v_n;
 
   const Vec3<T> v_t = c.v_rel - v_n * c.n - cross(c.w_arm, c.n);
   const T dt = T{} + dt_s;
@@ -118,14 +123,22 @@ HOOF_INLINE TouchForce<T> touch_force(const PairLaw<Real>& law, CoulombCap cap, 
   // Sticking: spring + dashpot. Sliding: the spring is cut back to the limit and the dashpot is
   // off.
   T dashpot = law.dashpot_t * root;
-  if (any_lane(slips)) {
+  {
     const T one = T{} + Real(1);
     const T keep = lane_select(slips, limit / lane_sqrt(lane_select(slips, spring2, one)), one);
     xi_t = keep * xi_t;
     dashpot = lane_select(slips, T{}, dashpot);
   }
   const Vec3<T> f_t = (T{} - S_t) * xi_t - dashpot * v_t;
-  return {F_n * c.n, f_t, F_n_elastic};
+  return {F_n * c.n, f_t, F_n_elastic, S_t, v_n, dashpot_n, v_t};
+}
+
+/// The same where the roots are not at hand. Call only where delta > 0.
+template <typename T, typename Real>
+HOOF_INLINE TouchForce<T> touch_force_of(const PairLaw<Real>& law, CoulombCap cap, Real dt_s,
+                                         const Touch<T>& c, T R_eff, T m_eff, Vec3<T>& xi_t) {
+  const T a = lane_sqrt(R_eff * c.delta);
+  return touch_force(law, cap, dt_s, c, a, lane_sqrt(a * m_eff), xi_t);
 }
 
 }  // namespace hoof::sim

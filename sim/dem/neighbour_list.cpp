@@ -1,13 +1,18 @@
 #include "sim/dem/neighbour_list.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "sim/dem/neighbour_list_impl.h"
 
 namespace hoof::sim {
 namespace {
 
-constexpr std::uint32_t kWindow = 256;  // rows sorted by list length within this many; best of 16
-                                        // ... 1024 on a trial kernel of the same layout
+constexpr std::uint32_t kWindowRows = kLanes * kGroupsPerWindow;
+constexpr std::uint32_t kSpareSlots = 1;  // per group, so that a row can get a neighbour in place
 
 /// Bits of a cell number spread three apart (ten bits an axis).
 std::uint32_t spread_bits(std::uint32_t v) {
@@ -19,11 +24,8 @@ std::uint32_t spread_bits(std::uint32_t v) {
 }
 
 /// Stable radix sort of `order` by `key`, 30 bits.
-void sort_by_key(std::vector<std::uint32_t>& key, std::vector<std::uint32_t>& order,
-                 std::vector<std::uint32_t>& key_scratch,
-                 std::vector<std::uint32_t>& order_scratch) {
-  key_scratch.resize(key.size());
-  order_scratch.resize(order.size());
+void sort_by_key(std::vector<std::uint32_t>& key, std::vector<std::uint32_t>& order) {
+  std::vector<std::uint32_t> key_scratch(key.size()), order_scratch(order.size());
   for (int shift = 0; shift < 30; shift += 10) {
     std::array<std::uint32_t, 1025> start{};
     for (const std::uint32_t k : key) ++start[((k >> shift) & 0x3ff) + 1];
@@ -38,229 +40,299 @@ void sort_by_key(std::vector<std::uint32_t>& key, std::vector<std::uint32_t>& or
   }
 }
 
-int cells_along(double length_m, double reach_m) {
-  return int(std::clamp(std::floor(length_m / reach_m), 1.0, 1023.0));
+/// First row of a member's share of all rows: whole windows, so that ordering rows within windows
+/// leaves each row with its member.
+std::uint32_t share_begin(std::uint32_t count, int member, int members) {
+  const std::uint64_t windows = (count + kWindowRows - 1) / kWindowRows;
+  return std::min<std::uint32_t>(
+      count, std::uint32_t(windows * std::uint64_t(member) / std::uint64_t(members)) * kWindowRows);
 }
 
 }  // namespace
 
 template <typename Real>
-void NeighbourList<Real>::sort_into_cells(const Records& records, std::uint32_t count,
-                                          const Domain& domain, double reach_m) {
+void NeighbourList<Real>::set_up(std::uint32_t count, const Domain& domain, const Reach& reach,
+                                 int members) {
+  const double widest_m = 2 * reach.largest_radius_m + reach.skin_m;
   for (int axis = 0; axis < 3; ++axis) {
-    cells_.count[axis] = cells_along(domain.length_m(axis), reach_m);
-    if (domain.periodic[axis] && cells_.count[axis] < 3) {
+    // Narrower, and a grain could touch another and its image across the side.
+    if (domain.periodic[axis] && domain.length_m(axis) < 3 * widest_m) {
       throw std::invalid_argument("a periodic bed must be at least three reaches wide: " +
                                   std::to_string(domain.length_m(axis)) + " m is under 3 x " +
-                                  std::to_string(reach_m) + " m");
+                                  std::to_string(widest_m) + " m");
     }
+    lsb_m_[std::size_t(axis)] = float(domain.length_m(axis) * 0x1p-32);
   }
-  const auto& n = cells_.count;
-  key_.resize(count);
-  order_.resize(count);
-  for (std::uint32_t row = 0; row < count; ++row) {
-    const Record& p = records[row];
-    key_[row] = spread_bits(CellGrid::cell_of(p.x, n[0])) |
-                spread_bits(CellGrid::cell_of(p.y, n[1])) << 1 |
-                spread_bits(CellGrid::cell_of(p.z, n[2])) << 2;
-    order_[row] = row;
-  }
-  sort_by_key(key_, order_, key_scratch_, order_scratch_);
-
-  const std::size_t cell_total = std::size_t(n[0]) * n[1] * n[2];
-  cells_.begin.assign(cell_total, 0);
-  cells_.end.assign(cell_total, 0);
-  sorted_.resize(count);
-  for (std::uint32_t place = 0; place < count; ++place) {
-    const Record& p = records[order_[place]];
-    sorted_[place] = p;
-    const std::size_t cell = cells_.index(
-        CellGrid::cell_of(p.x, n[0]), CellGrid::cell_of(p.y, n[1]), CellGrid::cell_of(p.z, n[2]));
-    if (cells_.end[cell] == 0) cells_.begin[cell] = place;
-    cells_.end[cell] = place + 1;
-  }
+  reach_ = reach;
+  domain_ = domain;
+  count_ = count;
+  group_count_ = (count + kLanes - 1) / kLanes;
+  members_.resize(std::size_t(members));
+  bound_m_.assign((count + kWindowRows - 1) / kWindowRows, 0);
+  row_count_.assign(count, 0);
+  found_.assign(count, {});
+  has_moved_.assign(count, 0);
+  reference_.resize(count);
+  cell_moves_ = wasted_slots_ = 0;
 }
 
 template <typename Real>
-void NeighbourList<Real>::search_from(std::uint32_t place, const Domain& domain, Real skin_m,
-                                      std::vector<Candidate>& found) const {
-  const Record& p = sorted_[place];
-  const auto& n = cells_.count;
-  const std::array<int, 3> at = {CellGrid::cell_of(p.x, n[0]), CellGrid::cell_of(p.y, n[1]),
-                                 CellGrid::cell_of(p.z, n[2])};
-  const Real lsb[3] = {Real(domain.lsb_m.x()), Real(domain.lsb_m.y()), Real(domain.lsb_m.z())};
-  std::array<std::array<int, 3>, 3> cell{};
-  for (int axis = 0; axis < 3; ++axis) {
-    for (int d = -1; d <= 1; ++d) {
-      int c = at[axis] + d;
-      if (c < 0 || c >= n[axis]) c = domain.periodic[axis] ? (c + n[axis]) % n[axis] : -1;
-      cell[axis][d + 1] = c;
-    }
-  }
-  for (const int cz : cell[2]) {
-    if (cz < 0) continue;
-    for (const int cy : cell[1]) {
-      if (cy < 0) continue;
-      for (const int cx : cell[0]) {
-        if (cx < 0) continue;
-        const std::size_t c = cells_.index(cx, cy, cz);
-        for (std::uint32_t other = cells_.begin[c]; other < cells_.end[c]; ++other) {
-          if (other == place) continue;
-          const Record& q = sorted_[other];
-          const auto difference = [](std::int32_t a, std::int32_t b) {
-            return Real(std::int32_t(std::uint32_t(a) - std::uint32_t(b)));
-          };
-          const Real dx = lsb[0] * difference(p.x, q.x), dy = lsb[1] * difference(p.y, q.y),
-                     dz = lsb[2] * difference(p.z, q.z);
-          const Real reach = p.radius_m + q.radius_m + skin_m;
-          const Real d2 = dx * dx + dy * dy + dz * dz;
-          if (d2 < reach * reach) {
-            found.push_back({std::sqrt(d2) - p.radius_m - q.radius_m, other});
-          }
-        }
-      }
-    }
-  }
+void NeighbourList<Real>::take_references(const Records& records, std::uint32_t count) {
+  for (std::uint32_t row = 0; row < count; ++row) reference_[row] = reference_of(records[row]);
 }
 
 template <typename Real>
-void NeighbourList<Real>::search(std::uint32_t begin, std::uint32_t end, const Domain& domain,
-                                 Real skin_m, Chunk& chunk) const {
-  chunk.found.clear();
-  chunk.first.clear();
-  for (std::uint32_t place = begin; place < end; ++place) {
-    const auto first = std::uint32_t(chunk.found.size());
-    chunk.first.push_back(first);
-    search_from(place, domain, skin_m, chunk.found);
-    // Nearest first: places without a touching lane then come last and stop after the distance.
-    std::sort(chunk.found.begin() + first, chunk.found.end(),
-              [](const Candidate& a, const Candidate& b) {
-                return a.gap_m != b.gap_m ? a.gap_m < b.gap_m : a.place < b.place;
-              });
-  }
-  chunk.first.push_back(std::uint32_t(chunk.found.size()));
+void NeighbourList<Real>::chain_all() {
+  chains_.reset(domain_, reach_.cell_m, count_);
+  for (std::uint32_t row = count_; row-- > 0;) chains_.insert(row, reference_[row]);
 }
 
 template <typename Real>
-void NeighbourList<Real>::order_rows(std::uint32_t count) {
-  row_of_place_.resize(count);
-  place_of_row_.resize(count);
-  for (std::uint32_t first = 0; first < count; first += kWindow) {
-    const std::uint32_t last = std::min(first + kWindow, count);
-    for (std::uint32_t place = first; place < last; ++place) place_of_row_[place] = place;
-    std::stable_sort(place_of_row_.begin() + first, place_of_row_.begin() + last,
-                     [&](std::uint32_t a, std::uint32_t b) {
-                       return neighbour_count_[a] > neighbour_count_[b];
+void NeighbourList<Real>::search(std::uint32_t row, const Records& records,
+                                 std::vector<Candidate>& found) const {
+  const Reference& at = reference_[row];
+  const auto skin_m = float(reach_.skin_m);
+  const std::size_t first = found.size();
+  chains_.visit_near(at, at.radius_m + float(reach_.largest_radius_m) + skin_m,
+                     [&](std::uint32_t other) {
+                       const float gap = gap_m(at, reference_[other]);
+                       if (gap < skin_m && other != row) found.push_back({gap, other});
                      });
-    for (std::uint32_t row = first; row < last; ++row) row_of_place_[place_of_row_[row]] = row;
-  }
-  slot_begin_.assign(group_count_ + 2, 0);
-  for (std::uint32_t group = 0; group < group_count_; ++group) {
-    std::uint32_t longest = 0;
-    for (std::uint32_t row = group * kLanes; row < std::min((group + 1) * kLanes, count); ++row) {
-      longest = std::max(longest, neighbour_count_[place_of_row_[row]]);
-    }
-    slot_begin_[group + 1] = slot_begin_[group] + longest;
-  }
-  slot_begin_[group_count_ + 1] = slot_begin_[group_count_];
+  sort_by_gap(found.data() + first, found.data() + found.size(), records);
 }
 
 template <typename Real>
-void NeighbourList<Real>::carry_history(std::uint32_t row, std::uint32_t place) {
-  const std::uint32_t old_row = order_[place];
+void NeighbourList<Real>::search_all(const Records& records, ThreadTeam& team) {
+  const int members = team.size();
+  team.run([&](int m) {
+    std::vector<Candidate>& found = members_[std::size_t(m)].found;
+    found.clear();
+    const std::uint32_t end = share_begin(count_, m + 1, members);
+    for (std::uint32_t row = share_begin(count_, m, members); row < end; ++row) {
+      const auto begin = std::uint32_t(found.size());
+      search(row, records, found);
+      found_[row] = {begin, std::uint32_t(found.size()) - begin};
+      row_count_[row] = std::uint16_t(found_[row].count);
+    }
+  });
+}
+
+template <typename Real>
+auto NeighbourList<Real>::found_for(std::uint32_t row) const -> const Candidate* {
+  const int members = int(members_.size());
+  int m = 0;
+  while (row >= share_begin(count_, m + 1, members)) ++m;
+  return members_[std::size_t(m)].found.data() + found_[row].begin;
+}
+
+/// Within windows, rows with about as many touching (then listed) neighbours come side by side: the
+/// lanes of a group then do about the same work.
+template <typename Real>
+void NeighbourList<Real>::order_rows(Records& records, Records& scratch) {
+  std::vector<std::uint32_t> place_of_row(count_), row_of_place(count_);
+  std::vector<std::uint32_t> weight(count_);
+  for (std::uint32_t place = 0; place < count_; ++place) {
+    const Candidate* mine = found_for(place);
+    std::uint32_t touching = 0;
+    while (touching < found_[place].count && mine[touching].gap_m < 0) ++touching;
+    weight[place] = touching << 16 | found_[place].count;
+    place_of_row[place] = place;
+  }
+  for (std::uint32_t first = 0; first < count_; first += kWindowRows) {
+    const std::uint32_t last = std::min(first + kWindowRows, count_);
+    std::stable_sort(place_of_row.begin() + first, place_of_row.begin() + last,
+                     [&](std::uint32_t a, std::uint32_t b) { return weight[a] > weight[b]; });
+    for (std::uint32_t row = first; row < last; ++row) row_of_place[place_of_row[row]] = row;
+  }
+  for (Member& m : members_) {
+    for (Candidate& c : m.found) c.row = row_of_place[c.row];
+  }
+  const std::vector<std::uint32_t> order = order_;
+  const std::vector<Reference> reference = reference_;
+  const std::vector<Found> found = found_;
+  for (std::uint32_t row = 0; row < count_; ++row) {
+    const std::uint32_t place = place_of_row[row];
+    order_[row] = order[place];
+    reference_[row] = reference[place];
+    found_[row] = found[place];
+    row_count_[row] = std::uint16_t(found[place].count);
+    scratch[row] = records[place];
+  }
+  records.swap(scratch);
+}
+
+template <typename Real>
+void NeighbourList<Real>::allot_slots() {
+  slot_begin_.assign(group_count_ + 1, 0);
+  slot_count_.assign(group_count_ + 1, 0);
+  slot_capacity_.assign(group_count_, 0);
+  std::uint32_t total = 0;
+  for (std::uint32_t group = 0; group < group_count_; ++group) {
+    const std::uint32_t first = group * kLanes, last = std::min(first + kLanes, count_);
+    slot_begin_[group] = total;
+    slot_count_[group] = *std::max_element(row_count_.begin() + first, row_count_.begin() + last);
+    slot_capacity_[group] = slot_count_[group] + kSpareSlots;
+    total += slot_capacity_[group];
+  }
+  slot_begin_[group_count_] = total;
+  // Groups that outgrow their place move to the end.
+  slots_.reserve(total + total / 8);
+  slots_.resize(total);
+  touching_.assign(total, 0);
+}
+
+template <typename Real>
+void NeighbourList<Real>::clear_place(std::uint32_t slot, std::uint32_t row) {
+  const std::uint32_t lane = row % kLanes;
+  EllSlot<Real>& s = slots_[slot];
+  s.neighbour[lane] = std::int32_t(row);
+  s.xi_x[lane] = s.xi_y[lane] = s.xi_z[lane] = 0;
+  touching_[slot] &= std::uint16_t(~(1u << lane));
+}
+
+template <typename Real>
+void NeighbourList<Real>::carry_history(std::uint32_t row) {
+  const std::uint32_t old_row = order_[row];
   const std::uint32_t old_group = old_row / kLanes, old_lane = old_row % kLanes;
-  if (old_group + 1 >= old_slot_begin_.size()) return;
-  const std::uint32_t group = row / kLanes, lane = row % kLanes;
-  const Candidate* mine = neighbours_of(place);
-  for (std::uint32_t s = old_slot_begin_[old_group]; s < old_slot_begin_[old_group + 1]; ++s) {
+  if (old_group >= old_slot_begin_.size()) return;
+  const std::uint32_t first = slot_begin_[row / kLanes], lane = row % kLanes;
+  const Candidate* mine = found_for(row);
+  const std::uint32_t old_begin = old_slot_begin_[old_group];
+  for (std::uint32_t s = old_begin; s < old_begin + old_slot_count_[old_group]; ++s) {
     if (!(old_touching_[s] >> old_lane & 1)) continue;
     const auto partner = std::uint32_t(old_slots_[s].neighbour[old_lane]);
-    for (std::uint32_t k = 0; k < neighbour_count_[place]; ++k) {
-      if (order_[mine[k].place] != partner) continue;
-      EllSlot<Real>& slot = slots_[slot_begin_[group] + k];
+    for (std::uint32_t k = 0; k < found_[row].count; ++k) {
+      if (order_[mine[k].row] != partner) continue;
+      EllSlot<Real>& slot = slots_[first + k];
       slot.xi_x[lane] = old_slots_[s].xi_x[old_lane];
       slot.xi_y[lane] = old_slots_[s].xi_y[old_lane];
       slot.xi_z[lane] = old_slots_[s].xi_z[old_lane];
-      touching_[slot_begin_[group] + k] |= std::uint16_t(1u << lane);
+      touching_[first + k] |= std::uint16_t(1u << lane);
       break;
     }
   }
 }
 
 template <typename Real>
-void NeighbourList<Real>::fill_group(std::uint32_t group, std::uint32_t count) {
-  for (std::uint32_t s = slot_begin_[group]; s < slot_begin_[group + 1]; ++s) {
-    EllSlot<Real>& slot = slots_[s];
-    slot = {};
-    for (int lane = 0; lane < kLanes; ++lane) slot.neighbour[lane] = int(group * kLanes) + lane;
-    touching_[s] = 0;
+void NeighbourList<Real>::fill_group(std::uint32_t group) {
+  const std::uint32_t first = slot_begin_[group];
+  for (std::uint32_t s = first; s < first + slot_capacity_[group]; ++s) {
+    for (std::uint32_t lane = 0; lane < kLanes; ++lane) clear_place(s, group * kLanes + lane);
   }
-  for (std::uint32_t row = group * kLanes; row < std::min((group + 1) * kLanes, count); ++row) {
-    const std::uint32_t place = place_of_row_[row];
-    const Candidate* mine = neighbours_of(place);
-    for (std::uint32_t k = 0; k < neighbour_count_[place]; ++k) {
-      slots_[slot_begin_[group] + k].neighbour[row % kLanes] =
-          std::int32_t(row_of_place_[mine[k].place]);
+  for (std::uint32_t row = group * kLanes; row < std::min((group + 1) * kLanes, count_); ++row) {
+    const Candidate* mine = found_for(row);
+    for (std::uint32_t k = 0; k < found_[row].count; ++k) {
+      slots_[first + k].neighbour[row % kLanes] = std::int32_t(mine[k].row);
     }
-    carry_history(row, place);
+    carry_history(row);
   }
 }
 
 template <typename Real>
-const std::vector<std::uint32_t>& NeighbourList<Real>::rebuild(Records& records,
-                                                               std::uint32_t count,
-                                                               const Domain& domain,
-                                                               double largest_radius_m,
-                                                               double skin_m, ThreadTeam& team) {
-  sort_into_cells(records, count, domain, 2 * largest_radius_m + skin_m);
-
-  const int members = team.size();
-  chunks_.resize(members);
-  const auto chunk_begin = [&](int m) { return std::uint32_t(std::uint64_t(count) * m / members); };
-  team.run(
-      [&](int m) { search(chunk_begin(m), chunk_begin(m + 1), domain, Real(skin_m), chunks_[m]); });
-  neighbours_.resize(count);
-  neighbour_count_.resize(count);
-  for (int m = 0; m < members; ++m) {
-    const Chunk& chunk = chunks_[m];
-    for (std::uint32_t place = chunk_begin(m); place < chunk_begin(m + 1); ++place) {
-      const std::uint32_t i = place - chunk_begin(m);
-      neighbours_[place] = chunk.found.data() + chunk.first[i];
-      neighbour_count_[place] = chunk.first[i + 1] - chunk.first[i];
-    }
+const std::vector<std::uint32_t>& NeighbourList<Real>::sort(Records& records, Records& scratch,
+                                                            std::uint32_t count,
+                                                            const Domain& domain,
+                                                            const Reach& reach, ThreadTeam& team) {
+  set_up(count, domain, reach, team.size());
+  take_references(records, count);
+  chains_.reset(domain_, reach_.cell_m, 0);
+  std::vector<std::uint32_t> key(count);
+  order_.resize(count);
+  for (std::uint32_t row = 0; row < count; ++row) {
+    const std::array<int, 3> cell = chains_.cell_numbers(reference_[row]);
+    key[row] = spread_bits(std::uint32_t(cell[0])) | spread_bits(std::uint32_t(cell[1])) << 1 |
+               spread_bits(std::uint32_t(cell[2])) << 2;
+    order_[row] = row;
   }
+  sort_by_key(key, order_);
+  for (std::uint32_t row = 0; row < count; ++row) scratch[row] = records[order_[row]];
+  std::copy(records.begin() + count, records.end(), scratch.begin() + count);  // padding
+  records.swap(scratch);
+  std::copy(records.begin() + count, records.end(), scratch.begin() + count);
 
-  slots_.swap(old_slots_);
-  touching_.swap(old_touching_);
-  slot_begin_.swap(old_slot_begin_);
-  group_count_ = (count + kLanes - 1) / kLanes;
-  order_rows(count);
-  slots_.resize(slot_begin_[group_count_]);
-  touching_.resize(slot_begin_[group_count_]);
+  take_references(records, count);
+  chain_all();
+  search_all(records, team);
+  order_rows(records, scratch);
+  chain_all();
+
+  slots_.swap(old_slots_), touching_.swap(old_touching_);
+  slot_begin_.swap(old_slot_begin_), slot_count_.swap(old_slot_count_);
+  allot_slots();
   team.run([&](int m) {
-    const std::uint32_t end = std::uint32_t(std::uint64_t(group_count_) * (m + 1) / members);
-    for (std::uint32_t g = std::uint32_t(std::uint64_t(group_count_) * m / members); g < end; ++g) {
-      fill_group(g, count);
+    const std::uint32_t end = std::uint32_t(std::uint64_t(group_count_) * (m + 1) / team.size());
+    for (std::uint32_t g = std::uint32_t(std::uint64_t(group_count_) * m / team.size()); g < end;
+         ++g) {
+      fill_group(g);
     }
   });
-
-  old_row_.resize(count);
-  for (std::uint32_t row = 0; row < count; ++row) {
-    records[row] = sorted_[place_of_row_[row]];
-    old_row_[row] = order_[place_of_row_[row]];
-  }
-  cells_.rows.resize(count);
-  for (std::uint32_t place = 0; place < count; ++place) cells_.rows[place] = row_of_place_[place];
-  return old_row_;
+  old_slots_ = {}, old_touching_ = {}, old_slot_begin_ = {}, old_slot_count_ = {};
+  for (Member& m : members_) m.found = {};
+  return order_;
 }
 
 template <typename Real>
 std::int64_t NeighbourList<Real>::find(std::uint32_t row, std::uint32_t neighbour) const {
-  const std::uint32_t group = row / kLanes;
-  for (std::uint32_t s = slot_begin_[group]; s < slot_begin_[group + 1]; ++s) {
+  const std::uint32_t group = row / kLanes, begin = slot_begin_[group];
+  for (std::uint32_t s = begin; s < begin + slot_count_[group]; ++s) {
     if (slots_[s].neighbour[row % kLanes] == std::int32_t(neighbour) && neighbour != row) return s;
   }
   return -1;
+}
+
+template <typename Real>
+std::size_t NeighbourList<Real>::bytes() const {
+  const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
+  return of(slots_) + of(touching_) + of(slot_begin_) + of(slot_count_) + of(slot_capacity_) +
+         of(reference_) + of(row_count_) + of(order_) + of(found_) + of(has_moved_) + of(bound_m_) +
+         chains_.bytes();
+}
+
+template <typename Real>
+void NeighbourList<Real>::save(ByteWriter& out) const {
+  out.put(reach_);
+  out.put(cell_moves_), out.put(renewed_);
+  out.put_all(bound_m_);
+  out.put_all(reference_);
+  // Histories of touching pairs: the place in the row, then the displacement.
+  for (std::uint32_t row = 0; row < count_; ++row) {
+    const std::uint32_t group = row / kLanes, lane = row % kLanes;
+    for (std::uint32_t k = 0; k < row_count_[row]; ++k) {
+      const std::uint32_t s = slot_begin_[group] + k;
+      if (!(touching_[s] >> lane & 1)) continue;
+      out.put(std::uint16_t(k));
+      out.put(slots_[s].xi_x[lane]), out.put(slots_[s].xi_y[lane]), out.put(slots_[s].xi_z[lane]);
+    }
+    out.put(std::uint16_t(0xffff));
+  }
+}
+
+template <typename Real>
+void NeighbourList<Real>::load(ByteReader& in, const Records& records, std::uint32_t count,
+                               const Domain& domain, ThreadTeam& team) {
+  const Reach reach = in.get<Reach>();
+  set_up(count, domain, reach, team.size());
+  in.get(cell_moves_), in.get(renewed_);
+  in.get_all(bound_m_);
+  in.get_all(reference_);
+  if (reference_.size() != count) throw std::runtime_error("is of another number of grains");
+  order_.resize(count);
+  for (std::uint32_t row = 0; row < count; ++row) order_[row] = row;
+  chain_all();
+  search_all(records, team);
+  old_slot_begin_ = {};
+  allot_slots();
+  for (std::uint32_t g = 0; g < group_count_; ++g) fill_group(g);
+  for (std::uint32_t row = 0; row < count; ++row) {
+    const std::uint32_t lane = row % kLanes;
+    for (std::uint16_t k = in.get<std::uint16_t>(); k != 0xffff; k = in.get<std::uint16_t>()) {
+      if (k >= row_count_[row]) throw std::runtime_error("names a neighbour that is not there");
+      const std::uint32_t s = slot_begin_[row / kLanes] + k;
+      in.get(slots_[s].xi_x[lane]), in.get(slots_[s].xi_y[lane]), in.get(slots_[s].xi_z[lane]);
+      touching_[s] |= std::uint16_t(1u << lane);
+    }
+  }
+  for (Member& m : members_) m.found = {};
 }
 
 template class NeighbourList<float>;

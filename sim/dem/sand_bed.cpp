@@ -14,8 +14,12 @@ void require(bool ok, const std::string& rule) {
 }
 
 BoundarySettings boundary_settings(const DemSettings& s) {
-  return {make_pair_law(s.grain_material, s.wall_material, s.grain_wall), s.coulomb_cap,
-          s.rolling_law, s.walls, s.skin_m};
+  return {make_pair_law(s.grain_material, s.wall_material, s.grain_wall),
+          s.coulomb_cap,
+          s.rolling_law,
+          s.walls,
+          s.skin_m,
+          s.account_energy};
 }
 
 void require_pair(const PairCoefficients& pair, const std::string& name) {
@@ -30,7 +34,8 @@ void require_pair(const PairCoefficients& pair, const std::string& name) {
 void DemSettings::validate() const {
   require((high_m - low_m).minCoeff() > 0, "the domain must have a positive size");
   require(dt_s > 0, "dt_s = " + std::to_string(dt_s) + ", must be positive");
-  require(skin_m > 0, "skin_m = " + std::to_string(skin_m) + ", must be positive");
+  require(skin_m >= 0, "skin_m = " + std::to_string(skin_m) + ", must not be negative");
+  require(cell_m >= 0, "cell_m = " + std::to_string(cell_m) + ", must not be negative");
   require(viscous_rate_1_s >= 0 && viscous_rate_1_s * dt_s < 1,
           "viscous_rate_1_s must be at least 0 and under 1 / dt_s");
   require(walls.size() <= 32, "at most 32 walls");
@@ -78,7 +83,9 @@ void SandBed::advance(int steps) {
 }
 
 MeshLoad SandBed::take_load(int mesh) {
-  return impl_->boundary.take_load(mesh);
+  const MeshLoad load = impl_->boundary.take_load(mesh);
+  impl_->lost.work_by_meshes_J -= load.work_J;
+  return load;
 }
 BedState SandBed::state() const {
   return impl_->state();
@@ -97,6 +104,21 @@ Eigen::Vector3d SandBed::momentum_kg_m_s() const {
 }
 double SandBed::coordination_number() const {
   return impl_->coordination_number();
+}
+EnergyBalance SandBed::energy() const {
+  return impl_->energy();
+}
+std::size_t SandBed::memory_bytes() const {
+  return impl_->memory_bytes();
+}
+std::string SandBed::snapshot() const {
+  ByteWriter out;
+  impl_->save(out);
+  return out.take();
+}
+void SandBed::restore(std::string_view snapshot) {
+  ByteReader in(snapshot);
+  impl_->restore(in);
 }
 std::uint64_t SandBed::state_hash() const {
   return impl_->state_hash();

@@ -2,20 +2,29 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <stdexcept>
+
+#include "sim/dem/flush_to_zero.h"
 
 namespace hoof::sim {
 namespace {
 
-double mass_kg(double density_kg_m3, double radius_m) {
-  return density_kg_m3 * (4.0 / 3.0 * 3.14159265358979323846) * radius_m * radius_m * radius_m;
+double mass_per_r3(double density_kg_m3) {
+  return density_kg_m3 * (4.0 / 3.0 * 3.14159265358979323846);
 }
+
+constexpr std::uint32_t kWindowsAtOnce = 8;  // of a member's share, taken in one go
+// The automatic skin, in smallest radii. Below, lists hardly get shorter; above, they grow faster
+// than looking up gets rarer.
+constexpr double kFirstSkin = 0.06, kThinnestSkin = 0.03, kWidestSkin = 1;
+constexpr double kBoundarySkin = 0.2;  // likewise: few grains, so long lists cost little
+constexpr int kSkinSteps = 128;        // how often it is thought over
 
 }  // namespace
 
 template <typename Real>
-SandBed::ImplOf<Real>::ImplOf(const DemSettings& s) : Impl(s) {
+SandBed::ImplOf<Real>::ImplOf(const DemSettings& s)
+    : Impl(s), cursors(std::make_unique<Cursor[]>(std::size_t(s.threads))) {
   set_laws();
   kernel = step_kernel<Real>(s.instruction_set);
 }
@@ -43,15 +52,26 @@ GrainRecord<Real> SandBed::ImplOf<Real>::to_record(const Grain& g) const {
   }
   Record r{};
   double rest[3];
-  r.x = domain.to_steps(0, g.p_m.x(), rest[0]);
-  r.y = domain.to_steps(1, g.p_m.y(), rest[1]);
-  r.z = domain.to_steps(2, g.p_m.z(), rest[2]);
-  r.rx = Real(rest[0]), r.ry = Real(rest[1]), r.rz = Real(rest[2]);
+  r.x = domain.to_steps<Real>(0, g.p_m.x(), rest[0]);
+  r.y = domain.to_steps<Real>(1, g.p_m.y(), rest[1]);
+  r.z = domain.to_steps<Real>(2, g.p_m.z(), rest[2]);
+  if constexpr (sizeof(Real) == 4) {
+    r.rx = Real(rest[0]), r.ry = Real(rest[1]), r.rz = Real(rest[2]);
+  }
   r.radius_m = Real(g.radius_m);
-  r.mass_kg = Real(mass_kg(settings.grain_material.density_kg_m3, g.radius_m));
+  r.mass_kg = Real(mass_per_r3(settings.grain_material.density_kg_m3) * g.radius_m * g.radius_m *
+                   g.radius_m);
   r.vx = Real(g.v_m_s.x()), r.vy = Real(g.v_m_s.y()), r.vz = Real(g.v_m_s.z());
   r.wx = Real(g.w_rad_s.x()), r.wy = Real(g.w_rad_s.y()), r.wz = Real(g.w_rad_s.z());
   r.id = g.id;
+  return r;
+}
+
+template <typename Real>
+GrainRecord<Real> SandBed::ImplOf<Real>::padding() const {
+  Record r{};
+  r.mass_kg = 1;
+  r.id = 0xffffffff;
   return r;
 }
 
@@ -60,17 +80,17 @@ void SandBed::ImplOf<Real>::load(const BedState& state) {
   if (state.grains.empty()) throw std::invalid_argument("bed: no grains");
   count = std::uint32_t(state.grains.size());
   largest_radius_m = 0;
+  smallest_radius_m = state.grains.front().radius_m;
   now.clear();
   for (const Grain& g : state.grains) {
     now.push_back(to_record(g));
     largest_radius_m = std::max(largest_radius_m, g.radius_m);
+    smallest_radius_m = std::min(smallest_radius_m, g.radius_m);
   }
-  Record padding{};
-  padding.mass_kg = 1;
-  padding.id = 0xffffffff;
-  while (now.size() % kLanes != 0) now.push_back(padding);
+  now.resize((now.size() + kLanes - 1) / kLanes * kLanes, padding());
   next = now;
-  rebuild_lists();
+  boundary.set_skin(settings.skin_m > 0 ? settings.skin_m : kBoundarySkin * smallest_radius_m);
+  sort_lists(settings.skin_m > 0 ? settings.skin_m : kFirstSkin * smallest_radius_m);
   boundary.prepare<Real>(now.data(), count, domain, interval_time_s);
   store_contacts(state.contacts);
 }
@@ -100,10 +120,10 @@ void SandBed::ImplOf<Real>::store_contacts(const std::vector<GrainContact>& cont
   const auto put = [&](std::uint32_t row, std::uint32_t partner, const Eigen::Vector3d& xi) {
     const std::int64_t s = list.find(row, partner);
     if (s < 0) return;  // no longer near: the history is void
-    EllSlot<Real>& slot = list.slots()[std::size_t(s)];
+    EllSlot<Real>& slot = list.slots()[s];
     const std::uint32_t lane = row % kLanes;
     slot.xi_x[lane] = Real(xi.x()), slot.xi_y[lane] = Real(xi.y()), slot.xi_z[lane] = Real(xi.z());
-    list.touching()[std::size_t(s)] |= std::uint16_t(1u << lane);
+    list.touching()[s] |= std::uint16_t(1u << lane);
   };
   for (const GrainContact& c : contacts) {
     const std::uint32_t i = row_of(c.i);
@@ -120,6 +140,7 @@ void SandBed::ImplOf<Real>::store_contacts(const std::vector<GrainContact>& cont
 template <typename Real>
 BedState SandBed::ImplOf<Real>::state() const {
   BedState s;
+  s.grains.reserve(count);
   for (const std::uint32_t row : rows_by_id()) {
     const Record& r = now[row];
     s.grains.push_back({r.id,
@@ -129,7 +150,8 @@ BedState SandBed::ImplOf<Real>::state() const {
                         {double(r.wx), double(r.wy), double(r.wz)}});
     const std::uint32_t group = row / kLanes, lane = row % kLanes;
     const std::size_t first = s.contacts.size();
-    for (std::uint32_t k = list.slot_begin()[group]; k < list.slot_begin()[group + 1]; ++k) {
+    const std::uint32_t begin = list.slot_begin()[group];
+    for (std::uint32_t k = begin; k < begin + list.slot_count()[group]; ++k) {
       if (!(list.touching()[k] >> lane & 1)) continue;
       const EllSlot<Real>& slot = list.slots()[k];
       const std::uint32_t partner = now[std::size_t(slot.neighbour[lane])].id;
@@ -153,162 +175,160 @@ BedState SandBed::ImplOf<Real>::state() const {
 }
 
 template <typename Real>
-StepArguments<Real> SandBed::ImplOf<Real>::arguments() {
+StepArguments<Real> SandBed::ImplOf<Real>::arguments(bool account) {
   StepArguments<Real> a{};
   a.in = now.data();
   a.out = next.data();
-  a.slots = list.slots().data();
-  a.touching = list.touching().data();
+  a.slots = list.slots();
+  a.touching = list.touching();
   a.slot_begin = list.slot_begin().data();
+  a.slot_count = list.slot_count().data();
   a.boundary = boundary.forces<Real>().data();
   a.boundary_of_group = boundary.force_of_group().data();
-  a.lsb_x_m = Real(domain.lsb_m.x()), a.lsb_y_m = Real(domain.lsb_m.y());
-  a.lsb_z_m = Real(domain.lsb_m.z());
+  a.results = results.data();
+  a.group_count = list.group_count();
+  a.lsb_x_m = Real(domain.lsb_m<Real>(0)), a.lsb_y_m = Real(domain.lsb_m<Real>(1));
+  a.lsb_z_m = Real(domain.lsb_m<Real>(2));
   a.dt_s = Real(settings.dt_s);
   a.gx = Real(settings.gravity_m_s2.x()), a.gy = Real(settings.gravity_m_s2.y());
   a.gz = Real(settings.gravity_m_s2.z());
   a.velocity_factor = Real(1 - settings.viscous_rate_1_s * settings.dt_s);
+  a.mass_per_r3 = Real(mass_per_r3(settings.grain_material.density_kg_m3));
   a.law = law;
   a.cap = settings.coulomb_cap;
   a.rolling = settings.rolling_law;
+  a.account = account;
   return a;
 }
 
 template <typename Real>
-double SandBed::ImplOf<Real>::largest_displacement_m() {
-  double largest2 = 0;
-  for (std::uint32_t row = 0; row < count; ++row) {
-    const auto moved = [](std::int32_t a, std::int32_t b) {
-      return double(std::int32_t(std::uint32_t(a) - std::uint32_t(b)));
-    };
-    const double dx = domain.lsb_m.x() * moved(now[row].x, listed_at[row][0]);
-    const double dy = domain.lsb_m.y() * moved(now[row].y, listed_at[row][1]);
-    const double dz = domain.lsb_m.z() * moved(now[row].z, listed_at[row][2]);
-    largest2 = std::max(largest2, dx * dx + dy * dy + dz * dz);
-  }
-  return std::sqrt(largest2);
-}
-
-template <typename Real>
-void SandBed::ImplOf<Real>::rebuild_lists() {
-  const std::vector<std::uint32_t>& old_row =
-      list.rebuild(now, count, domain, largest_radius_m, settings.skin_m, team);
-  boundary.reorder(old_row);
-  listed_at.resize(count);
-  for (std::uint32_t row = 0; row < count; ++row) {
-    listed_at[row] = {now[row].x, now[row].y, now[row].z};
-  }
-  // Members get groups of about equal numbers of list places.
-  const std::uint32_t groups = list.group_count();
-  part.assign(std::size_t(team.size()) + 1, groups);
-  const std::uint64_t total = list.slot_begin()[groups] + std::uint64_t(groups);
-  std::uint32_t group = 0;
-  for (int member = 0; member < team.size(); ++member) {
-    while (group < groups &&
-           (list.slot_begin()[group] + std::uint64_t(group)) * std::uint64_t(team.size()) <
-               total * std::uint64_t(member)) {
-      ++group;
-    }
-    part[std::size_t(member)] = group;
-  }
-  grain_travel_m = 0;
+void SandBed::ImplOf<Real>::sort_lists(double skin_m) {
+  const double cell_m = settings.cell_m > 0 ? settings.cell_m : 1.6 * largest_radius_m;
+  boundary.reorder(list.sort(now, next, count, domain, {largest_radius_m, skin_m, cell_m}, team));
+  share_out();
   ++health.rebuilds;
 }
 
-/// Lists are good while no pair can have closed the skin. The fastest grain bounds the travel; only
-/// when that bound is used up are the displacements themselves looked at, so a single rattling
-/// grain does not set the pace.
 template <typename Real>
-void SandBed::ImplOf<Real>::rebuild_if_stale() {
-  const double margin_m = 0.5 * settings.skin_m;
-  if (grain_travel_m > margin_m) {
-    grain_travel_m = largest_displacement_m();
-    if (grain_travel_m > 0.75 * margin_m) rebuild_lists();
+void SandBed::ImplOf<Real>::share_out() {
+  // Members get windows of about equal numbers of list places; who is done first takes from others.
+  results.assign(list.window_count(), {});
+  share.assign(std::size_t(team.size()) + 1, list.window_count());
+  std::uint64_t total = 0, passed = 0;
+  for (const std::uint32_t n : list.slot_count()) total += n + 1;
+  int member = 0;
+  for (std::uint32_t w = 0; w < list.window_count(); ++w) {
+    while (member < team.size() &&
+           passed * std::uint64_t(team.size()) >= total * std::uint64_t(member)) {
+      share[std::size_t(member++)] = w;
+    }
+    const std::uint32_t first = w * kGroupsPerWindow;
+    for (std::uint32_t g = first; g < std::min(first + kGroupsPerWindow, list.group_count()); ++g) {
+      passed += list.slot_count()[g] + 1;
+    }
+  }
+}
+
+/// Looking neighbours up costs some 700 ns a grain, long lists 15 ns a step and grain for a skin as
+/// wide as the smallest radius (both measured); the skin at which both cost the same is best. It is
+/// changed by factors of two, and not for less than a factor of two in cost.
+template <typename Real>
+double SandBed::ImplOf<Real>::fitting_skin_m() {
+  const double skin_m = list.reach().skin_m;
+  if (settings.skin_m > 0 || health.steps % kSkinSteps != 0 || health.steps == 0) return skin_m;
+  const double looked_up_ns =
+      700.0 * double(list.take_renewed()) / (double(count) * double(kSkinSteps));
+  const double listed_ns = 15 * skin_m / smallest_radius_m;
+  if (looked_up_ns > 2 * listed_ns && skin_m < 0.75 * kWidestSkin * smallest_radius_m) {
+    return 2 * skin_m;
+  }
+  if (looked_up_ns < 0.125 * listed_ns && skin_m > 1.5 * kThinnestSkin * smallest_radius_m) {
+    return 0.5 * skin_m;
+  }
+  return skin_m;
+}
+
+template <typename Real>
+void SandBed::ImplOf<Real>::refresh_lists() {
+  const double skin_m = fitting_skin_m();
+  if (skin_m != list.reach().skin_m || list.is_scattered()) {
+    sort_lists(skin_m);
+  } else {
+    health.renewed += list.update(now, team);
+  }
+}
+
+/// Calls work(begin, end) for all of this member's windows, then for what others have left.
+template <typename Real>
+void SandBed::ImplOf<Real>::share_windows(
+    int member, const std::function<void(std::uint32_t, std::uint32_t)>& work) {
+  for (int i = 0; i < team.size(); ++i) {
+    const auto whose = std::size_t((member + i) % team.size());
+    const std::uint32_t end = share[whose + 1];
+    for (;;) {
+      const std::uint32_t begin =
+          cursors[whose].next.fetch_add(kWindowsAtOnce, std::memory_order_relaxed);
+      if (begin >= end) break;
+      work(begin, std::min(begin + kWindowsAtOnce, end));
+    }
   }
 }
 
 template <typename Real>
-void SandBed::ImplOf<Real>::check(double fastest_m_s) {
-  health.fastest_m_s = fastest_m_s;
-  ++health.steps;
-  health.time_s = double(health.steps) * settings.dt_s;
-  // A grain that crosses a tenth of the largest grain's radius in one step is no longer resolved;
-  // sand under a foot moves at metres per second at most.
-  const double limit_m_s = 0.1 * largest_radius_m / settings.dt_s;
-  if (!(fastest_m_s < limit_m_s)) {
-    throw std::runtime_error(
-        "bed: blow-up at step " + std::to_string(health.steps) + ": a grain moves at " +
-        std::to_string(fastest_m_s) + " m/s (bound " + std::to_string(limit_m_s) +
-        " m/s); a smaller bed.dt_s may help (now " + std::to_string(settings.dt_s * 1e6) + " us)");
+void SandBed::ImplOf<Real>::compute_forces(const StepArguments<Real>& a) {
+  for (int m = 0; m < team.size(); ++m) {
+    cursors[std::size_t(m)].next.store(share[std::size_t(m)], std::memory_order_relaxed);
   }
+  team.run([&](int member) {
+    const FlushToZero flush;
+    share_windows(member, [&](std::uint32_t begin, std::uint32_t end) {
+      boundary.compute<Real>(a.in, domain, settings.dt_s, begin * kGroupsPerWindow,
+                             std::min(end * kGroupsPerWindow, a.group_count));
+      kernel(a, begin, end);
+    });
+  });
+}
+
+template <typename Real>
+bool SandBed::ImplOf<Real>::is_audit_due() const {
+  return settings.audit_steps > 0 && health.steps % std::uint64_t(settings.audit_steps) == 0;
 }
 
 template <typename Real>
 void SandBed::ImplOf<Real>::step() {
-  rebuild_if_stale();
+  refresh_lists();
   boundary.prepare<Real>(now.data(), count, domain, interval_time_s);
-  const StepArguments<Real> a = arguments();
-  std::vector<Real> fastest2(std::size_t(team.size()), Real(0));
-  team.run([&](int member) {
-    const std::uint32_t begin = part[std::size_t(member)], end = part[std::size_t(member) + 1];
-    boundary.compute<Real>(a.in, domain, settings.dt_s, begin, end);
-    fastest2[std::size_t(member)] = kernel(a, begin, end);
-  });
+  const bool account = settings.account_energy || is_audit_due();
+  compute_forces(arguments(account));
   now.swap(next);
-  double largest2 = 0;
-  for (const Real v2 : fastest2) {
-    if (!(double(v2) <= largest2)) largest2 = double(v2);  // a NaN gets through to the check
-  }
-  const double fastest = std::sqrt(largest2);
-  check(fastest);
-  grain_travel_m += fastest * settings.dt_s;
-  boundary.advance(fastest * settings.dt_s);
+  take_results(account);
   interval_time_s += settings.dt_s;
 }
 
 template <typename Real>
-double SandBed::ImplOf<Real>::coordination_number() const {
-  std::uint64_t touches = 0;
-  for (const std::uint16_t bits : list.touching())
-    touches += std::uint64_t(__builtin_popcount(bits));
-  return double(touches) / double(count);
-}
-
-template <typename Real>
-double SandBed::ImplOf<Real>::kinetic_energy_J() const {
-  double sum = 0;
-  for (std::uint32_t row = 0; row < count; ++row) {
-    const Record& r = now[row];
-    const double v2 = double(r.vx) * r.vx + double(r.vy) * r.vy + double(r.vz) * r.vz;
-    const double w2 = double(r.wx) * r.wx + double(r.wy) * r.wy + double(r.wz) * r.wz;
-    sum += 0.5 * r.mass_kg * (v2 + 0.4 * double(r.radius_m) * r.radius_m * w2);
+void SandBed::ImplOf<Real>::take_results(bool account) {
+  double fastest_m_s = 0;
+  for (const WindowResult& r : results) {
+    if (!(r.fastest_m_s <= fastest_m_s)) fastest_m_s = r.fastest_m_s;  // a NaN gets through
+    if (std::isnan(fastest_m_s)) break;
   }
-  return sum;
-}
-
-template <typename Real>
-Eigen::Vector3d SandBed::ImplOf<Real>::momentum_kg_m_s() const {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (std::uint32_t row = 0; row < count; ++row) {
-    sum += double(now[row].mass_kg) *
-           Eigen::Vector3d(double(now[row].vx), double(now[row].vy), double(now[row].vz));
+  check_speed(fastest_m_s);
+  list.travelled([&](std::size_t w) { return results[w].fastest_m_s * settings.dt_s; });
+  boundary.advance(fastest_m_s * settings.dt_s);
+  if (!account) return;
+  WindowResult sum;
+  for (const WindowResult& r : results) {
+    sum.contacts += r.contacts;
+    sum.viscous_loss_J += r.viscous_loss_J;
+    sum.deepest_ratio = std::max(sum.deepest_ratio, r.deepest_ratio);
+    sum.stiffest_1_s2 = std::max(sum.stiffest_1_s2, r.stiffest_1_s2);
   }
-  return sum;
-}
-
-template <typename Real>
-std::uint64_t SandBed::ImplOf<Real>::state_hash() const {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const std::uint32_t row : rows_by_id()) {
-    const Record& r = now[row];
-    const Real words[] = {r.radius_m, r.vx, r.vy, r.vz, r.wx, r.wy, r.wz, r.rx, r.ry, r.rz};
-    const std::int32_t steps[] = {r.x, r.y, r.z, std::int32_t(r.id)};
-    unsigned char bytes[sizeof words + sizeof steps];
-    std::memcpy(bytes, words, sizeof words);
-    std::memcpy(bytes + sizeof words, steps, sizeof steps);
-    for (const unsigned char b : bytes) hash = (hash ^ b) * 0x100000001b3u;
-  }
-  return hash;
+  check_load(sum);
+  if (!settings.account_energy) return;
+  lost.grain_grain += sum.contacts;
+  lost.grain_grain.stored_normal_J = sum.contacts.stored_normal_J;
+  lost.grain_grain.stored_tangential_J = sum.contacts.stored_tangential_J;
+  lost.viscous_loss_J += sum.viscous_loss_J;
 }
 
 template struct SandBed::ImplOf<float>;

@@ -2,10 +2,10 @@
 
 namespace hoof::sim {
 
-#define HOOF_DECLARE_KERNEL(isa)                                                  \
-  namespace isa {                                                                 \
-  float step_mixed(const StepArguments<float>&, std::uint32_t, std::uint32_t);    \
-  double step_double(const StepArguments<double>&, std::uint32_t, std::uint32_t); \
+#define HOOF_DECLARE_KERNEL(isa)                                                \
+  namespace isa {                                                               \
+  void step_mixed(const StepArguments<float>&, std::uint32_t, std::uint32_t);   \
+  void step_double(const StepArguments<double>&, std::uint32_t, std::uint32_t); \
   }
 HOOF_DECLARE_KERNEL(portable)
 HOOF_DECLARE_KERNEL(avx2)

@@ -4,6 +4,7 @@
 #pragma once
 
 #define HOOF_INLINE [[gnu::always_inline]] inline
+#define HOOF_INLINE_LAMBDA __attribute__((always_inline))
 
 namespace hoof::sim {
 

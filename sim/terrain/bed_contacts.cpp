@@ -61,13 +61,12 @@ class ContactForces {
     const double m_a = mass_kg(a), m_b = mass_kg(b);
     Touch<double> t;
     t.delta = a.radius_m + b.radius_m - distance_m;
-    t.R_eff = a.radius_m * b.radius_m / (a.radius_m + b.radius_m);
-    t.m_eff = m_a * m_b / (m_a + m_b);
     t.n = to_vec3(d / distance_m);
     t.v_rel = to_vec3(a.v_m_s - b.v_m_s);
     t.w_arm =
         to_vec3((a.radius_m - t.delta / 2) * a.w_rad_s + (b.radius_m - t.delta / 2) * b.w_rad_s);
-    LoadedContact c = load(a, t, grain_law_, xi_m);
+    const double R_eff_m = a.radius_m * b.radius_m / (a.radius_m + b.radius_m);
+    LoadedContact c = load(a, t, R_eff_m, m_a * m_b / (m_a + m_b), grain_law_, xi_m);
     c.j = b.id;
     c.to_j_m = -d;
     c.overlap_ratio = t.delta / std::min(a.radius_m, b.radius_m);
@@ -83,12 +82,10 @@ class ContactForces {
     const double height_m = w.normal.dot(a.p_m) - w.offset_m;
     Touch<double> t;
     t.delta = a.radius_m - height_m;
-    t.R_eff = a.radius_m;
-    t.m_eff = mass_kg(a);
     t.n = to_vec3(w.normal);
     t.v_rel = to_vec3(a.v_m_s);
     t.w_arm = to_vec3(height_m * a.w_rad_s);
-    LoadedContact c = load(a, t, wall_law_, xi_m);
+    LoadedContact c = load(a, t, a.radius_m, mass_kg(a), wall_law_, xi_m);
     c.j = GrainContact::kWallContact + std::uint32_t(index);
     c.to_j_m = -height_m * w.normal;
     c.p_m = a.p_m + c.to_j_m;
@@ -102,15 +99,16 @@ class ContactForces {
            g.radius_m * g.radius_m;
   }
 
-  LoadedContact load(const Grain& a, const Touch<double>& t, const PairLaw<double>& law,
-                     const Eigen::Vector3d& xi_m) const {
+  LoadedContact load(const Grain& a, const Touch<double>& t, double R_eff_m, double m_eff_kg,
+                     const PairLaw<double>& law, const Eigen::Vector3d& xi_m) const {
     LoadedContact c;
     c.i = a.id;
     c.overlap_m = t.delta;
     if (!(t.delta > 0)) return c;
     Vec3<double> xi = to_vec3(xi_m);
     const double no_time_s = 0;  // the history is that of this moment already
-    const TouchForce<double> f = touch_force(law, settings_.coulomb_cap, no_time_s, t, xi);
+    const TouchForce<double> f = touch_force_of(
+        law, settings_.coulomb_cap, no_time_s, t, R_eff_m, m_eff_kg, xi);
     c.f_normal_N = to_eigen(f.f_normal);
     c.f_tangential_N = to_eigen(f.f_tangential);
     c.p_m = a.p_m - (a.radius_m - t.delta / 2) * to_eigen(t.n);

@@ -111,7 +111,7 @@ BedSettings read_bed(Reader section) {
   section.number("grain_scale_ratio", bed.grain_scale, kUnitless, 0.05, 50);
   section.integer("steps_per_ms", bed.steps_per_ms, 10, 100000);
   section.integer("settling_steps_per_ms", bed.settling_steps_per_ms, 1, 100000);
-  section.number("skin_um", bed.skin_m, kMicrometre, 1, 20000);
+  section.number("skin_um", bed.skin_m, kMicrometre, 0, 20000);
   section.number("packing_friction", bed.packing_friction, kUnitless, 0, 5);
   section.number("packing_rolling_friction", bed.packing_rolling_friction, kUnitless, 0, 5);
   section.number("rain_share_ratio", bed.rain_share, kUnitless, 0.05, 0.55);

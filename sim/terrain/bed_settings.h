@@ -26,7 +26,7 @@ struct BedSettings {
   double grain_scale = 1;  // diameters of the table times this
   int steps_per_ms = 360;
   int settling_steps_per_ms = 180;  // while it is made: nothing is measured then
-  double skin_m = 2e-4;
+  double skin_m = 0;  // see DemSettings; 0: chosen while running
   // mu_s and mu_r while the grains fall: the less, the denser the bed.
   double packing_friction = 0.52;
   double packing_rolling_friction = 0.02;

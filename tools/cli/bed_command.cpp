@@ -126,6 +126,11 @@ void add_export(CLI::App& parent, Invocation& invocation) {
 
 void add_bed_command(CLI::App& app, Invocation& invocation) {
   CLI::App* command = app.add_subcommand("bed", "Make, describe and export beds of sand");
+  command->footer(
+      "Examples:\n"
+      "  hoof bed make --bed bench --seed 3\n"
+      "  hoof bed info demo\n"
+      "  hoof bed export demo --vtk out");
   command->require_subcommand(1);
   add_make(*command, invocation);
   add_info(*command, invocation);

@@ -13,17 +13,19 @@ namespace hoof::sim::test {
 class BoundaryRig {
  public:
   using Record = GrainRecord<double>;
+  static constexpr double kSkin_m = 2e-4;
 
   BoundaryRig(const DemSettings& s, const std::vector<Grain>& grains, bool account_energy = false)
       : settings_(s),
         domain_(Domain::spanning(s.low_m, s.high_m, s.periodic)),
         boundary_({make_pair_law(s.grain_material, s.wall_material, s.grain_wall), s.coulomb_cap,
-                   s.rolling_law, s.walls, s.skin_m, account_energy}) {
+                   s.rolling_law, s.walls, kSkin_m, account_energy}) {
     for (const Grain& g : grains) {
       Record r{};
-      r.x = domain_.to_steps(0, g.p_m.x(), r.rx);
-      r.y = domain_.to_steps(1, g.p_m.y(), r.ry);
-      r.z = domain_.to_steps(2, g.p_m.z(), r.rz);
+      double rest;  // below one step: nothing
+      r.x = domain_.to_steps<double>(0, g.p_m.x(), rest);
+      r.y = domain_.to_steps<double>(1, g.p_m.y(), rest);
+      r.z = domain_.to_steps<double>(2, g.p_m.z(), rest);
       r.radius_m = g.radius_m, r.mass_kg = grain_mass_kg(2 * g.radius_m);
       r.vx = g.v_m_s.x(), r.vy = g.v_m_s.y(), r.vz = g.v_m_s.z();
       r.wx = g.w_rad_s.x(), r.wy = g.w_rad_s.y(), r.wz = g.w_rad_s.z();
@@ -116,16 +118,14 @@ class BoundaryRig {
     }
     r.vx = v.x(), r.vy = v.y(), r.vz = v.z();
     r.wx = w.x(), r.wy = w.y(), r.wz = w.z();
-    drift(r.x, r.rx, dt * v.x() / domain_.lsb_m.x());
-    drift(r.y, r.ry, dt * v.y() / domain_.lsb_m.y());
-    drift(r.z, r.rz, dt * v.z() / domain_.lsb_m.z());
+    drift(r.x, dt * v.x() / domain_.lsb_m<double>(0));
+    drift(r.y, dt * v.y() / domain_.lsb_m<double>(1));
+    drift(r.z, dt * v.z() / domain_.lsb_m<double>(2));
     return dt * v.norm();
   }
 
-  static void drift(std::int32_t& x, double& rest, double steps) {
-    const double sum = rest + steps, whole = std::floor(sum);
-    x = std::int32_t(std::uint32_t(x) + std::uint32_t(std::int64_t(whole)));
-    rest = sum - whole;
+  static void drift(std::int64_t& x, double steps) {
+    x = std::int64_t(std::uint64_t(x) + std::uint64_t(std::int64_t(steps)));
   }
 
   DemSettings settings_;

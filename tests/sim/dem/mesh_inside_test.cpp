@@ -30,9 +30,10 @@ Eigen::Vector3d pressed(BoundaryRig& rig, const Eigen::Vector3d& end_m, int plac
   for (int i = 0; i <= places; ++i) {
     const Eigen::Vector3d p_m = start_m + double(i) / places * (end_m - start_m);
     auto& r = rig.record(0);
-    r.x = domain.to_steps(0, p_m.x(), r.rx);
-    r.y = domain.to_steps(1, p_m.y(), r.ry);
-    r.z = domain.to_steps(2, p_m.z(), r.rz);
+    double rest;
+    r.x = domain.to_steps<double>(0, p_m.x(), rest);
+    r.y = domain.to_steps<double>(1, p_m.y(), rest);
+    r.z = domain.to_steps<double>(2, p_m.z(), rest);
     rig.compute();
     rig.boundary().advance((end_m - start_m).norm() / places);
   }

@@ -106,7 +106,7 @@ TEST_CASE("a wrong bed is refused in one line with file, line, key, value and bo
       {"box_length_mm = 80", "box_length_mm = 9",
        "bed.toml:2:1: bed.box_length_mm = 9: must be a number from 10.0 to 5000.0 mm"},
       {"skin_um = 200", "skin_um = -1",
-       "bed.toml:12:1: bed.skin_um = -1: must be a number from 1.0 to 20000.0 um"},
+       "bed.toml:12:1: bed.skin_um = -1: must be a number from 0.0 to 20000.0 um"},
       {"overfill_ratio = 1.08", "overfill_ratio = 0.9",
        "bed.toml:16:1: bed.overfill_ratio = 0.9: must be a number from 1.0 to 2.0"},
       {"steps_per_ms = 360", "steps_per_ms = 360.5",
