@@ -81,6 +81,9 @@ void add_study_command(CLI::App& app, Invocation& invocation) {
             run_resolution_study);
   add_study(*command, invocation, "time-step", "The same press with steps from 2 to 12 us",
             run_time_step_study);
+  add_study(*command, invocation, "cell-size",
+            "The same press with cells of 2 to 6 smallest radii: time and equality",
+            run_cell_size_study);
   add_study(*command, invocation, "box", "Length, width and depth of the box against the force",
             run_box_study);
 }

@@ -28,15 +28,10 @@ double gap_m(const PressCase& c) {
   return c.smooth ? kSmoothGap_m : kGap_m;
 }
 
-template <typename Settings>
-void set_cell(Settings& settings, double cell_m) {
-  if constexpr (requires { settings.cell_m; }) settings.cell_m = cell_m;
-}
-
 sim::DemSettings engine_settings(const PressCase& c, const sim::Materials& materials, int threads) {
   sim::DemSettings s = sim::dem_settings(c.bed, materials, threads);
   s.dt_s = c.step_s();
-  set_cell(s, c.cell_m);
+  s.cell_m = c.cell_m;
   if (c.smooth) s.grain_wall.static_friction = s.grain_wall.rolling_friction = 0;
   return s;
 }

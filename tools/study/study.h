@@ -29,6 +29,8 @@ struct StudyOptions {
 void run_resolution_study(const StudyOptions& options);
 /// The same press on the same bed with steps from 2 to 12 us (at the paper's grain size).
 void run_time_step_study(const StudyOptions& options);
+/// The same press with cells of the neighbour search from 2 to 6 smallest radii: time and equality.
+void run_cell_size_study(const StudyOptions& options);
 /// Length, width and depth of the box against the force.
 void run_box_study(const StudyOptions& options);
 
