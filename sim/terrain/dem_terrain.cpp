@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "sim/dem/byte_archive.h"
+
 namespace hoof::sim {
 
 DemTerrain::DemTerrain(const DemSettings& settings, const BedState& state)
@@ -38,6 +40,21 @@ void DemTerrain::advance(double interval_s, std::span<const BodyMotion> motions,
     wrenches[i] = {load.impulse_W_Ns / interval_s, load.angular_impulse_Bo_W_Nms / interval_s};
     work_J_ += load.work_J;
   }
+}
+
+// The bed's bytes, then the work: at the end, so that the bed's need not be copied.
+std::string DemTerrain::snapshot() const {
+  std::string bytes = bed_.snapshot();
+  ByteWriter work;
+  work.put(work_J_);
+  return bytes += work.bytes();
+}
+
+void DemTerrain::restore(std::string_view snapshot) {
+  if (snapshot.size() < sizeof work_J_) throw std::runtime_error("the snapshot is truncated");
+  const std::size_t bed_bytes = snapshot.size() - sizeof work_J_;
+  bed_.restore(snapshot.substr(0, bed_bytes));
+  ByteReader(snapshot.substr(bed_bytes)).get(work_J_);
 }
 
 }  // namespace hoof::sim

@@ -4,11 +4,11 @@
 #include <vector>
 
 #include "sim/dem/sand_bed.h"
-#include "sim/terrain/terrain.h"
+#include "sim/terrain/resumable_terrain.h"
 
 namespace hoof::sim {
 
-class DemTerrain final : public Terrain {
+class DemTerrain final : public ResumableTerrain {
  public:
   /// @throws std::invalid_argument as SandBed
   DemTerrain(const DemSettings& settings, const BedState& state);
@@ -22,6 +22,9 @@ class DemTerrain final : public Terrain {
 
   double surface_height_m() const override { return 0; }
   double work_on_bodies_J() const override { return work_J_; }
+
+  std::string snapshot() const override;
+  void restore(std::string_view snapshot) override;
 
   const SandBed& bed() const { return bed_; }
 

@@ -8,12 +8,10 @@
 #include <time.h>
 
 #include <cmath>
-#include <fstream>
-#include <sstream>
-#include <stdexcept>
-#include <string>
 
 #include "sim/dem/sand_bed.h"
+#include "tests/benchmarks/benchmark_foot.h"
+#include "tests/benchmarks/tiled_bed.h"
 
 namespace {
 
@@ -23,73 +21,6 @@ constexpr double kTileX_m = 0.1004, kTileY_m = 0.0502;  // periods of the settle
 constexpr double kDeep_m = 0.008;
 constexpr double kSpeed_m_s = 0.4;
 constexpr double kHigh_m = 0.3;
-constexpr double kFootHeight_m = 0.04;
-
-BedState read_bed(const std::string& path) {
-  std::ifstream in(path);
-  if (!in) throw std::runtime_error(path + " cannot be read");
-  BedState bed;
-  std::string line;
-  std::getline(in, line);  // d,x,y,z,vx,vy,vz,wx,wy,wz
-  while (std::getline(in, line)) {
-    for (char& c : line) c = c == ',' ? ' ' : c;
-    std::istringstream fields(line);
-    double diameter_m;
-    Grain g;
-    g.id = std::uint32_t(bed.grains.size());
-    fields >> diameter_m;
-    for (Eigen::Vector3d* v : {&g.p_m, &g.v_m_s, &g.w_rad_s}) {
-      fields >> v->x() >> v->y() >> v->z();
-    }
-    if (!fields) throw std::runtime_error(path + ": " + line + " is not ten numbers");
-    g.radius_m = diameter_m / 2;
-    bed.grains.push_back(g);
-  }
-  return bed;
-}
-
-/// A block of 60 x 30 x 40 mm with a rounded sole, 5,400 triangles, origin in the middle of the
-/// sole, z up.
-TriangleMesh foot_mesh() {
-  const std::array<int, 3> cells = {30, 15, 20};
-  const Eigen::Vector3d size_m(0.06, 0.03, kFootHeight_m);
-  TriangleMesh mesh;
-  std::vector<std::int32_t> number(31 * 16 * 21, -1);
-  const auto vertex = [&](std::array<int, 3> at) {
-    std::int32_t& v = number[std::size_t((at[2] * 16 + at[1]) * 31 + at[0])];
-    if (v < 0) {
-      v = std::int32_t(mesh.vertices_m.size());
-      Eigen::Vector3d p(at[0] / 30.0 - 0.5, at[1] / 15.0 - 0.5, at[2] / 20.0);
-      p = p.cwiseProduct(size_m);
-      const double rise_m = 5 * p.head<2>().squaredNorm();  // sole of radius 100 mm
-      p.z() += rise_m * (1 - p.z() / size_m.z());
-      mesh.vertices_m.push_back(p);
-    }
-    return v;
-  };
-  for (int axis = 0; axis < 3; ++axis) {
-    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-    for (const bool far : {false, true}) {
-      for (int i = 0; i < cells[std::size_t(u)]; ++i) {
-        for (int j = 0; j < cells[std::size_t(v)]; ++j) {
-          const auto corner = [&](int di, int dj) {
-            std::array<int, 3> at{};
-            at[std::size_t(axis)] = far ? cells[std::size_t(axis)] : 0;
-            at[std::size_t(u)] = i + di, at[std::size_t(v)] = j + dj;
-            return vertex(at);
-          };
-          const std::int32_t a = corner(0, 0), b = corner(1, 0), c = corner(1, 1), d = corner(0, 1);
-          if (far) {
-            mesh.triangles.push_back({a, b, c}), mesh.triangles.push_back({a, c, d});
-          } else {
-            mesh.triangles.push_back({a, c, b}), mesh.triangles.push_back({a, d, c});
-          }
-        }
-      }
-    }
-  }
-  return mesh;
-}
 
 /// How many tiles lie side by side, in x and y.
 struct Tiles {
@@ -119,14 +50,14 @@ struct Pressed {
 const Pressed& pressed() {
   static const Pressed result = [] {
     Pressed p;
-    p.before = read_bed(HOOF_SETTLED_BED);
+    p.before = hoof::benchmarks::read_periodic_bed(HOOF_SETTLED_BED, kTileX_m, kTileY_m).state;
     double top_m = 0;
     for (const Grain& g : p.before.grains) top_m = std::max(top_m, g.p_m.z() + g.radius_m);
     const DemSettings s = settings({1, 1}, 1);
     SandBed bed(s, p.before);
     p.foot.p_WB_m = {kTileX_m / 2, kTileY_m / 2, top_m};
     p.foot.v_WB_m_s = {0, 0, -kSpeed_m_s};
-    const int foot = bed.add_mesh(foot_mesh(), p.foot.p_WB_m, p.foot.q_WB);
+    const int foot = bed.add_mesh(hoof::benchmarks::foot_mesh(), p.foot.p_WB_m, p.foot.q_WB);
     bed.set_motion(foot, p.foot);
     const int steps = int(kDeep_m / kSpeed_m_s / s.dt_s);
     bed.advance(steps);
@@ -180,8 +111,8 @@ void boundary_alone(benchmark::State& state) {
   for (const Grain& g : bed.grains) {
     GrainRecord<float> r{};
     double rest;
-    r.x = domain.to_steps(0, g.p_m.x(), rest), r.y = domain.to_steps(1, g.p_m.y(), rest);
-    r.z = domain.to_steps(2, g.p_m.z(), rest);
+    r.x = domain.to_steps<float>(0, g.p_m.x(), rest), r.y = domain.to_steps<float>(1, g.p_m.y(), rest);
+    r.z = domain.to_steps<float>(2, g.p_m.z(), rest);
     r.radius_m = float(g.radius_m), r.mass_kg = float(11100 * std::pow(g.radius_m, 3));
     r.vx = float(g.v_m_s.x()), r.vy = float(g.v_m_s.y()), r.vz = float(g.v_m_s.z());
     r.wx = float(g.w_rad_s.x()), r.wy = float(g.w_rad_s.y()), r.wz = float(g.w_rad_s.z());
@@ -196,9 +127,10 @@ void boundary_alone(benchmark::State& state) {
   BoundarySettings b;
   b.law = make_pair_law(s.grain_material, s.wall_material, s.grain_wall);
   b.walls = s.walls;
-  b.skin_m = s.skin_m;
+  b.skin_m = 2e-4;
   Boundary boundary(b);
-  if (with_foot) boundary.set_motion(boundary.add_mesh(foot_mesh()), pressed().foot);
+  if (with_foot)
+    boundary.set_motion(boundary.add_mesh(hoof::benchmarks::foot_mesh()), pressed().foot);
   double time_s = 0;
   for (auto _ : state) {
     const double start_s = thread_time_s();
@@ -209,9 +141,9 @@ void boundary_alone(benchmark::State& state) {
     time_s += s.dt_s;
     for (std::size_t i = 0; i < moving; ++i) {
       GrainRecord<float>& r = records[i];
-      r.x += std::int32_t(r.vx * s.dt_s / domain.lsb_m.x());
-      r.y += std::int32_t(r.vy * s.dt_s / domain.lsb_m.y());
-      r.z += std::int32_t(r.vz * s.dt_s / domain.lsb_m.z());
+      r.x += std::int32_t(r.vx * s.dt_s / domain.lsb_m<float>(0));
+      r.y += std::int32_t(r.vy * s.dt_s / domain.lsb_m<float>(1));
+      r.z += std::int32_t(r.vz * s.dt_s / domain.lsb_m<float>(2));
     }
   }
   state.counters["grains"] = double(count);

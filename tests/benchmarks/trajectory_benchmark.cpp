@@ -1,6 +1,6 @@
-// Time of one plan: position, jerk-limited, time-synchronised, over random moving starts and targets
-// (a fifth of them at rest), so that no branch predictor learns one case by heart.
-// Bars (issue 4): medians of 0.59, 2.91 and 7.72 us for 1, 3 and 7 joints in double.
+// Time of one plan: position, jerk-limited, time-synchronised, over random moving starts and
+// targets (a fifth of them at rest), so that no branch predictor learns one case by heart. Bars
+// (issue 4): medians of 0.59, 2.91 and 7.72 us for 1, 3 and 7 joints in double.
 #include <benchmark/benchmark.h>
 
 #include <memory>

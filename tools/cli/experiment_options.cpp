@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -15,6 +16,9 @@ constexpr double kToeMax_deg = 40.0;  // the paper's widest opening and the foot
 const std::string kStlEnding = ".stl";
 const std::vector<std::string> kFeet = {"bionic", "bionic-plain", "traditional"};
 const std::vector<std::string> kBeds = {"demo", "bench", "paper"};
+
+const std::string kResume = "--resume";
+const std::string kCheckpointEvery = "--checkpoint-every";
 
 // The settings that the flags stand for, spelled once.
 constexpr std::string_view kFootKey = "use.foot";
@@ -47,6 +51,17 @@ CLI::Validator positive(const std::string& unit) {
         const std::optional<double> value = parse_number(text);
         if (!value) return "'" + text + "' is not a number (in " + unit + ")";
         if (*value <= 0.0) return text + " " + unit + " is not above 0";
+        return "";
+      },
+      "");
+}
+
+CLI::Validator not_negative(const std::string& unit) {
+  return CLI::Validator(
+      [unit](const std::string& text) -> std::string {
+        const std::optional<double> value = parse_number(text);
+        if (!value) return "'" + text + "' is not a number (in " + unit + ")";
+        if (*value < 0.0) return text + " " + unit + " is below 0";
         return "";
       },
       "");
@@ -132,15 +147,59 @@ std::string examples(Experiment experiment) {
     return "Examples:\n"
            "  hoof sinkage\n"
            "  hoof sinkage --foot traditional --load 40 --speed 0.1 --bed bench --seed 3\n"
-           "  hoof sinkage --foot bionic --toe 30 --load 400N --out runs/toe-30 --force";
+           "  hoof sinkage --foot bionic --toe 30 --load 400N --out runs/toe-30 --force\n"
+           "  hoof sinkage --resume runs/toe-30.resume";
   }
   return "Examples:\n"
          "  hoof traction\n"
          "  hoof traction --foot bionic-plain --frequency 1.12 --toe 20\n"
-         "  hoof traction --drive prescribed --set bed.depth_mm=100 --threads 2";
+         "  hoof traction --drive prescribed --set bed.depth_mm=100 --threads 2\n"
+         "  hoof traction --bed paper --out runs/paper --checkpoint-every 10\n"
+         "  hoof traction --resume runs/paper.resume";
+}
+
+/// With --resume, what the run is cannot be said anew.
+void refuse_beside_resume(const CLI::App& command) {
+  const std::set<std::string> also = {kResume, kCheckpointEvery, "--force", "--live", "--quiet"};
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->count() > 0 && !also.contains(option->get_name())) {
+      throw CLI::ValidationError(kResume, "goes on with the settings of the run; " +
+                                              option->get_name() + " cannot be given with it");
+    }
+  }
+}
+
+void add_resume_options(CLI::App& command, ExperimentOptions& options) {
+  const CLI::Option* resume =
+      command.add_option(kResume, options.resume, "Finish a run that was cut off: DIR.resume")
+          ->type_name("DIR");
+  command
+      .add_option(kCheckpointEvery, options.checkpoint_every_min,
+                  "Minutes between checkpoints of the grains; 0: none, cannot be resumed")
+      ->type_name("MIN")
+      ->check(not_negative("minutes"))
+      ->capture_default_str();
+  command.parse_complete_callback([&command, resume] {
+    if (resume->count() > 0) refuse_beside_resume(command);
+  });
+}
+
+const char* name_of(Experiment experiment) {
+  return experiment == Experiment::kSinkage ? "sinkage" : "traction";
 }
 
 }  // namespace
+
+void run_or_resume(const ExperimentOptions& options, Experiment experiment) {
+  constexpr double kMinute_s = 60;
+  const RunOutput output{options.run.out, options.run.force, options.run.live, options.run.quiet,
+                         options.checkpoint_every_min * kMinute_s};
+  if (!options.resume.empty()) {
+    resume_experiment(name_of(experiment), options.resume, output);
+  } else {
+    run_experiment(read_run_settings(name_of(experiment), settings_overrides(options)), output);
+  }
+}
 
 void add_experiment_options(CLI::App& command, ExperimentOptions& options, Experiment experiment) {
   command.add_option("--foot", options.foot, "bionic, bionic-plain, traditional or FILE.stl")
@@ -176,6 +235,7 @@ void add_experiment_options(CLI::App& command, ExperimentOptions& options, Exper
   command.add_option("--bus", options.bus, "CAN interface, e.g. vcan0 [in process]")
       ->type_name("IFACE");
   add_run_options(command, options.run);
+  add_resume_options(command, options);
   command.footer(examples(experiment));
 }
 

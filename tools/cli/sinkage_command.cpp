@@ -2,7 +2,6 @@
 
 #include "tools/cli/commands.h"
 #include "tools/cli/experiment_options.h"
-#include "tools/experiment/run_experiment.h"
 
 namespace hoof::tools {
 
@@ -12,10 +11,7 @@ void add_sinkage_command(CLI::App& app, Invocation& invocation) {
       app.add_subcommand("sinkage", "Stand a loaded foot in sand, its toes held by the firmware");
   add_experiment_options(*command, *options, Experiment::kSinkage);
   command->callback([&invocation, options] {
-    invocation.run = [options] {
-      run_experiment(read_run_settings("sinkage", settings_overrides(*options)),
-                     {options->run.out, options->run.force, options->run.live, options->run.quiet});
-    };
+    invocation.run = [options] { run_or_resume(*options, Experiment::kSinkage); };
   });
 }
 

@@ -2,7 +2,6 @@
 
 #include "tools/cli/commands.h"
 #include "tools/cli/experiment_options.h"
-#include "tools/experiment/run_experiment.h"
 
 namespace hoof::tools {
 
@@ -12,10 +11,7 @@ void add_traction_command(CLI::App& app, Invocation& invocation) {
       "traction", "Pull a foot through sand along the stance ellipse, driven by the firmware");
   add_experiment_options(*command, *options, Experiment::kTraction);
   command->callback([&invocation, options] {
-    invocation.run = [options] {
-      run_experiment(read_run_settings("traction", settings_overrides(*options)),
-                     {options->run.out, options->run.force, options->run.live, options->run.quiet});
-    };
+    invocation.run = [options] { run_or_resume(*options, Experiment::kTraction); };
   });
 }
 

@@ -33,11 +33,8 @@ std::unique_ptr<sim::Rig> make_rig(const RunSettings& run) {
   return std::make_unique<sim::TractionRig>(s);
 }
 
-}  // namespace
-
-std::unique_ptr<sim::Terrain> make_terrain(const RunSettings& run, const BenchProgress& progress,
-                                           const BenchNote& note) {
-  if (!run.on_grains) return std::make_unique<sim::RigidTerrain>(run.rigid);
+sim::BedState settled_bed(const RunSettings& run, const BenchProgress& progress,
+                          const BenchNote& note) {
   const sim::BedStore store(std::filesystem::path(HOOF_CACHE_DIR) / "beds");
   const std::filesystem::path file = store.file(run.bed, run.materials, run.seed);
   if (!std::filesystem::exists(file)) {
@@ -45,19 +42,39 @@ std::unique_ptr<sim::Terrain> make_terrain(const RunSettings& run, const BenchPr
          std::to_string(sim::grains_to_pour(run.bed, 0.6)) +
          " grains poured); kept for later runs");
   }
-  const sim::StoredBed bed = store.get(run.bed, run.materials, run.seed, run.threads, progress);
+  sim::StoredBed bed = store.get(run.bed, run.materials, run.seed, run.threads, progress);
   if (!bed.discarded.empty()) note(bed.discarded + "; the bed was made anew");
-  return std::make_unique<sim::DemTerrain>(sim::dem_settings(run.bed, run.materials, run.threads),
-                                           bed.state);
+  return std::move(bed.state);
 }
 
-std::unique_ptr<sim::Experiment> make_experiment(const RunSettings& run,
-                                                 const BenchProgress& progress,
-                                                 const BenchNote& note) {
-  auto plant = std::make_unique<sim::Plant>(make_rig(run), run.drives,
-                                            make_terrain(run, progress, note), run.coupling);
+std::unique_ptr<sim::Terrain> make_terrain(const RunSettings& run, const BenchProgress& progress,
+                                           const BenchNote& note,
+                                           const std::optional<sim::JournalSettings>& journal) {
+  if (!run.on_grains) return std::make_unique<sim::RigidTerrain>(run.rigid);
+  auto sand = std::make_unique<sim::DemTerrain>(
+      sim::dem_settings(run.bed, run.materials, run.threads), settled_bed(run, progress, note));
+  if (!journal) return sand;
+  return std::make_unique<sim::JournaledTerrain>(std::move(sand), *journal);
+}
+
+}  // namespace
+
+std::unique_ptr<sim::Experiment> make_experiment(
+    const RunSettings& run, const BenchProgress& progress, const BenchNote& note,
+    const std::optional<sim::JournalSettings>& journal) {
+  auto plant = std::make_unique<sim::Plant>(
+      make_rig(run), run.drives, make_terrain(run, progress, note, journal), run.coupling);
   if (run.is_sinkage()) return std::make_unique<sim::Sinkage>(run.sinkage, std::move(plant));
   return std::make_unique<sim::Traction>(run.traction, std::move(plant));
+}
+
+const sim::SandBed* find_sand(const sim::Terrain& ground) {
+  const sim::Terrain* under = &ground;
+  if (const auto* journaled = dynamic_cast<const sim::JournaledTerrain*>(under)) {
+    under = &journaled->ground();
+  }
+  const auto* sand = dynamic_cast<const sim::DemTerrain*>(under);
+  return sand == nullptr ? nullptr : &sand->bed();
 }
 
 Eigen::Vector2d footprint_m(const sim::Foot& foot, double toe_rad) {

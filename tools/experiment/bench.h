@@ -3,9 +3,12 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "sim/dem/sand_bed.h"
 #include "sim/experiments/experiment.h"
+#include "sim/terrain/journaled_terrain.h"
 #include "tools/experiment/run_settings.h"
 
 namespace hoof::tools {
@@ -15,13 +18,14 @@ using BenchProgress = std::function<bool(double)>;
 /// Something the user should know while the bench is built.
 using BenchNote = std::function<void(const std::string&)>;
 
-std::unique_ptr<sim::Terrain> make_terrain(const RunSettings& run, const BenchProgress& progress,
-                                           const BenchNote& note);
-
+/// @param journal of the grains, where the run can be resumed
 /// @throws std::runtime_error "stopped" when progress says so while a bed is made
-std::unique_ptr<sim::Experiment> make_experiment(const RunSettings& run,
-                                                 const BenchProgress& progress,
-                                                 const BenchNote& note);
+std::unique_ptr<sim::Experiment> make_experiment(
+    const RunSettings& run, const BenchProgress& progress, const BenchNote& note,
+    const std::optional<sim::JournalSettings>& journal = {});
+
+/// Null where the ground is not of grains.
+const sim::SandBed* find_sand(const sim::Terrain& ground);
 
 /// Outer size of the foot on the ground in x and y, toes opened by toe_rad, m.
 Eigen::Vector2d footprint_m(const sim::Foot& foot, double toe_rad);

@@ -3,12 +3,13 @@
 #include <chrono>
 #include <cstdio>
 #include <iostream>
+#include <optional>
 #include <system_error>
 
 #include "hil_bridge/session.h"
-#include "sim/terrain/dem_terrain.h"
 #include "tools/experiment/bench.h"
 #include "tools/experiment/recorder.h"
+#include "tools/experiment/resume_folder.h"
 #include "tools/experiment/section_view.h"
 #include "tools/experiment/summary.h"
 #include "tools/report/report.h"
@@ -44,48 +45,104 @@ std::string moment(const sim::Observation& o) {
   return text;
 }
 
+/// Where a run grows and where it keeps what it takes to resume it.
+struct Places {
+  std::unique_ptr<RunFolder> run;
+  std::unique_ptr<ResumeFolder> resume;  // null where it cannot be resumed
+};
+
+Places new_places(const RunSettings& run, const RunOutput& output) {
+  for (;;) {
+    Places places;
+    places.run = std::make_unique<RunFolder>(RunFolderOptions{run.kind, output.out, output.force});
+    const std::filesystem::path path = places.run->final_path();
+    places.resume = ResumeFolder::begin(path, run.kind, run.tree.to_toml(), output.force);
+    if (places.resume) {
+      // Without grains a run is done sooner than resumed.
+      if (!run.on_grains || output.checkpoint_every_s == 0) places.resume.reset();
+      return places;
+    }
+    if (!output.out.empty()) {
+      throw UserError("--out " + path.string() + ": another run of this name is under way");
+    }
+    // Another run was given this default name at the same moment; there is a next one.
+  }
+}
+
 class Run {
  public:
-  Run(const RunSettings& run, const RunOutput& output)
+  Run(const RunSettings& run, const RunOutput& output, Places places)
       : run_(run),
         output_(output),
-        folder_({run.kind, output.out, output.force}),
+        folder_(std::move(places.run)),
+        resume_(std::move(places.resume)),
         style_(choose_progress_style(output.quiet)) {}
 
   void go() {
-    const Clock::time_point start = Clock::now();
-    write_file(folder_.file("settings.toml"), run_.tree.to_toml());
-    experiment_ = build();
-    const double built_s = seconds_since(start);
-    const sim::DemTerrain* sand = dynamic_cast<sim::DemTerrain*>(&experiment_->plant().terrain());
-    sim::BedState untouched;
-    if (sand != nullptr) untouched = sand->bed().state();
-    recorder_ = std::make_unique<Recorder>(run_, folder_.working_path(), output_.live);
-    const bridge::SessionResult session = drive();
-    recorder_->close();
-    const nlohmann::ordered_json result = summarise(run_, *experiment_, session, *recorder_);
-    write_result_json(folder_.file("result.json"), result);
-    if (sand != nullptr) {
-      write_file(folder_.file("section.svg"),
-                 draw_section(untouched, sand->bed().state(), experiment_->plant().rig(),
-                              run_.bed.d50_m(), cut_y_m()));
+    for (const auto& removed : folder_->removed()) {
+      note("removed " + removed.string() + ", which a killed run left half-written");
     }
-    // Apart from the results, which are the same every time: how long it took here and now.
-    write_result_json(folder_.file("timing.json"), {{"build_s", built_s},
-                                                    {"run_s", seconds_since(start) - built_s},
-                                                    {"threads", run_.threads}});
-    write_report(folder_.working_path());
-    if (session.interrupted) interrupt("the results up to that moment");
-    print(result);
-    const std::filesystem::path path = folder_.commit();
+    try {
+      perform();
+    } catch (const UserError& error) {
+      throw UserError(error.what() + how_to_resume());
+    }
+    const std::filesystem::path path = folder_->commit();
+    if (resume_) resume_->remove();
     std::cout << path.string() << std::endl;
   }
 
  private:
+  /// All but moving the folder to its place.
+  void perform() {
+    const Clock::time_point start = Clock::now();
+    // Of a resumed run as it was written first, with the origin of each value.
+    write_file(folder_->file("settings.toml"),
+               resume_ ? resume_->settings_toml() : run_.tree.to_toml());
+    experiment_ = build();
+    journal_ = dynamic_cast<sim::JournaledTerrain*>(&experiment_->plant().terrain());
+    const double built_s = seconds_since(start);
+    const sim::SandBed* sand = find_sand(experiment_->plant().terrain());
+    sim::BedState untouched;
+    if (sand != nullptr) untouched = sand->state();
+    recorder_ = std::make_unique<Recorder>(run_, folder_->working_path(), output_.live);
+    const bridge::SessionResult session = drive();
+    if (session.interrupted) save_for_resuming();
+    recorder_->close();
+    const nlohmann::ordered_json result = summarise(run_, *experiment_, session, *recorder_);
+    write_result_json(folder_->file("result.json"), result);
+    if (sand != nullptr) {
+      write_file(folder_->file("section.svg"),
+                 draw_section(untouched, sand->state(), experiment_->plant().rig(),
+                              run_.bed.d50_m(), cut_y_m()));
+    }
+    // Apart from the results, which are the same every time: how long it took here and now.
+    write_result_json(folder_->file("timing.json"), {{"build_s", built_s},
+                                                     {"run_s", seconds_since(start) - built_s},
+                                                     {"threads", run_.threads}});
+    write_report(folder_->working_path());
+    if (session.interrupted) interrupt("the results up to that moment");
+    print(result);
+  }
+
   /// Through a row of spines, where there are spines.
   double cut_y_m() const {
     const sim::FootGeometry& g = run_.foot.geometry;
     return g.has_spines ? g.spines.middle_row_offset_m : 0;
+  }
+
+  void note(const std::string& text) {
+    if (output_.quiet) return;
+    if (progress_) progress_->finish();
+    std::cerr << "hoof: " << text << "\n";
+    // What came before tells nothing about how long the rest takes.
+    if (progress_) progress_.emplace(run_.kind, style_, std::cerr);
+  }
+
+  std::optional<sim::JournalSettings> journal_settings() {
+    if (!resume_) return {};
+    return sim::JournalSettings{resume_->path(), resume_->key(), output_.checkpoint_every_s,
+                                [this](const std::string& text) { note(text); }};
   }
 
   std::unique_ptr<sim::Experiment> build() {
@@ -94,17 +151,15 @@ class Run {
       progress.update(share);
       return !stop_.requested();
     };
-    const auto note = [&](const std::string& text) {
-      if (!output_.quiet) std::cerr << "hoof: " << text << "\n";
-    };
     try {
-      auto experiment = make_experiment(run_, show, note);
+      auto experiment = make_experiment(
+          run_, show, [this](const std::string& text) { note(text); }, journal_settings());
       progress.finish();
       return experiment;
     } catch (const std::runtime_error&) {
       progress.finish();
       if (stop_.requested()) {
-        throw Interrupted("stopped while the bed was settling; nothing was kept",
+        throw Interrupted("stopped while the bed was settling; nothing was kept" + how_to_resume(),
                           stop_.exit_status());
       }
       throw;
@@ -112,7 +167,7 @@ class Run {
   }
 
   bridge::SessionResult drive() {
-    ProgressLine progress(run_.kind, style_, std::cerr);
+    progress_.emplace(run_.kind, style_, std::cerr);
     const auto log = [this](int bus, const hal::CanFrame& frame) { recorder_->frame(bus, frame); };
     const std::unique_ptr<bridge::Wires> wires = run_.bus == "in_process"
                                                      ? bridge::in_process_wires(log)
@@ -120,34 +175,62 @@ class Run {
     const auto observe = [&](const bridge::TickRecord& record) {
       recorder_->tick(record);
       if (record.plant.phase != sim::Phase::kFinished) {
-        progress.update(experiment_->progress(), moment(record.plant));
+        progress_->update(experiment_->progress(), moment(record.plant));
       }
       return !stop_.requested();
     };
     try {
       const bridge::SessionResult result = bridge::run_session(
           *experiment_, run_.parameters, *wires, session_settings(run_), observe);
-      progress.finish();
+      progress_->finish();
       return result;
     } catch (const UserError&) {
-      progress.finish();
+      progress_->finish();
       throw;
     } catch (const std::system_error& error) {
       // Output that cannot be written, for instance on a full disk: nothing half-written is kept.
-      progress.finish();
+      progress_->finish();
       throw UserError(error.what());
     } catch (const std::runtime_error& error) {
-      progress.finish();
+      progress_->finish();
       recorder_->close();
-      const std::filesystem::path kept = folder_.keep_as("failed");
+      const std::filesystem::path kept = folder_->keep_as("failed");
       throw CannotFinish(std::string(error.what()) + "; samples and bus log are kept in " +
-                         kept.string());
+                         kept.string() + checkpoint_kept());
     }
   }
 
+  /// What was done since the last checkpoint is not lost either.
+  void save_for_resuming() {
+    if (journal_ == nullptr) return;
+    // The ground is still as it was at the start, and its part of the results would be wrong.
+    if (journal_->replaying()) {
+      throw Interrupted("stopped while going over what was done before" + how_to_resume(),
+                        stop_.exit_status());
+    }
+    try {
+      journal_->write_checkpoint();
+    } catch (const std::runtime_error& error) {
+      note(std::string(error.what()) + "; what was done since the checkpoint before it is lost");
+    }
+  }
+
+  bool has_checkpoint() const { return resume_ && resume_->has_checkpoint(); }
+
+  std::string how_to_resume() const {
+    if (!has_checkpoint()) return "";
+    return "; to finish the run: " + resume_command(run_.kind, resume_->path()) +
+           (output_.force ? " --force" : "");
+  }
+
+  std::string checkpoint_kept() const {
+    return has_checkpoint() ? ", the last checkpoint in " + resume_->path().string() : "";
+  }
+
   [[noreturn]] void interrupt(const std::string& what) {
-    const std::filesystem::path kept = folder_.keep_as("interrupted");
-    throw Interrupted("stopped; " + what + " are kept in " + kept.string(), stop_.exit_status());
+    const std::filesystem::path kept = folder_->keep_as("interrupted");
+    throw Interrupted("stopped; " + what + " are kept in " + kept.string() + how_to_resume(),
+                      stop_.exit_status());
   }
 
   void print(const nlohmann::ordered_json& r) const {
@@ -188,16 +271,29 @@ class Run {
   const RunSettings& run_;
   const RunOutput& output_;
   StopRequest stop_;
-  RunFolder folder_;
+  std::unique_ptr<RunFolder> folder_;
+  std::unique_ptr<ResumeFolder> resume_;
   ProgressStyle style_;
+  std::optional<ProgressLine> progress_;
   std::unique_ptr<sim::Experiment> experiment_;
+  sim::JournaledTerrain* journal_ = nullptr;  // null where the run cannot be resumed
   std::unique_ptr<Recorder> recorder_;
 };
 
 }  // namespace
 
 void run_experiment(const RunSettings& run, const RunOutput& output) {
-  Run(run, output).go();
+  Run(run, output, new_places(run, output)).go();
+}
+
+void resume_experiment(const std::string& kind, const std::filesystem::path& folder,
+                       RunOutput output) {
+  Places places;
+  places.resume = ResumeFolder::open(folder, kind);
+  const RunSettings run = read_run_settings(places.resume->settings_file().string(), {});
+  output.out = places.resume->run_path();
+  places.run = std::make_unique<RunFolder>(RunFolderOptions{kind, output.out, output.force});
+  Run(run, output, std::move(places)).go();
 }
 
 }  // namespace hoof::tools

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "sim/terrain/journaled_terrain.h"
 #include "tools/experiment/run_settings.h"
 
 namespace hoof::tools {
@@ -12,10 +13,18 @@ struct RunOutput {
   bool force = false;
   bool live = false;
   bool quiet = false;
+  /// Between checkpoints of the grains, by the clock; 0: the run cannot be resumed.
+  double checkpoint_every_s = sim::JournalSettings().checkpoint_every_s;
 };
 
 /// Runs, writes the folder and its report, prints the summary; the folder's path is the last line.
 /// @throws UserError, sim::ConfigError, CannotFinish, Interrupted
 void run_experiment(const RunSettings& run, const RunOutput& output);
+
+/// Finishes a run that was cut off: its folder ends with the bytes of an undisturbed run.
+/// @param kind "sinkage" or "traction"  @param folder "<run>.resume", or "<run>"
+/// @throws as run_experiment
+void resume_experiment(const std::string& kind, const std::filesystem::path& folder,
+                       RunOutput output);
 
 }  // namespace hoof::tools

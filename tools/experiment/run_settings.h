@@ -42,6 +42,7 @@ struct RunSettings {
   bool firmware_leg() const { return !is_sinkage() && !traction.prescribed; }
 };
 
+/// @param experiment "sinkage", "traction" or a TOML file of one
 /// @param overrides "dotted.key=value", as of --set; keys "control.NAME" are firmware parameters
 /// @throws sim::ConfigError, UserError: one line that names file, key, value and bound
 RunSettings read_run_settings(const std::string& experiment,

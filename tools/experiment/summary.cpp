@@ -5,7 +5,6 @@
 
 #include "firmware/protocol/protocol_hash.h"
 #include "sim/experiments/resolution.h"
-#include "sim/terrain/dem_terrain.h"
 #include "tools/experiment/bench.h"
 #include "tools/run/sha256.h"
 #include "tools/run/version.h"
@@ -50,18 +49,17 @@ Json resolution(const RunSettings& run, double sinkage_m) {
 Json ground(const RunSettings& run, const sim::Experiment& experiment) {
   Json j = Json::object();
   j["terrain"] = run.on_grains ? "dem" : "rigid";
-  const auto* dem = dynamic_cast<const sim::DemTerrain*>(&experiment.plant().terrain());
-  if (dem == nullptr) return j;
-  const sim::BedHealth health = dem->bed().health();
+  const sim::SandBed* sand = find_sand(experiment.plant().terrain());
+  if (sand == nullptr) return j;
+  const sim::BedHealth health = sand->health();
   j["bed"] = run.bed.name;
   j["seed"] = run.seed;
-  j["grains"] = dem->bed().grain_count();
+  j["grains"] = sand->grain_count();
   j["bed_steps"] = health.steps;
   j["list_rebuilds"] = health.rebuilds;
   j["deepest_overlap_ratio"] = health.deepest_boundary_ratio;
   char hash[17];
-  std::snprintf(hash, sizeof hash, "%016llx",
-                static_cast<unsigned long long>(dem->bed().state_hash()));
+  std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(sand->state_hash()));
   j["state_hash"] = hash;
   return j;
 }

@@ -3,6 +3,8 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <memory>
+#include <stdexcept>
 
 #include "sim/terrain/bed_maker.h"
 #include "tests/sim/dem/paper_bed.h"
@@ -221,4 +223,60 @@ TEST_CASE("grains that lie on a held plate weigh on it: the mean force is their 
   // At rest but for tremor that 0.2 s of a medium leaves.
   CHECK(sum.z() / 100 == Approx(-weight_N).epsilon(1e-3));
   CHECK(sum.head<2>().norm() / 100 < 1e-3 * weight_N);
+}
+
+TEST_CASE("a ground that is put back goes on with the same bytes, on any number of threads") {
+  const BedSettings bed = small_bed();
+  const BedState state = make_small_bed(bed);
+  const double half_height_m = 5e-3, step_m = 0.4 * kExchange_s;  // 0.4 m/s, downward and aside
+  const auto sole_at = [&](int interval) {
+    return pose({0.5 * interval * step_m, 0, 1e-3 + half_height_m - interval * step_m},
+                1e-4 * interval, Eigen::Vector3d::UnitX());
+  };
+  const auto make = [&](int threads) {
+    auto ground =
+        std::make_unique<DemTerrain>(dem_settings(bed, shipped_materials(), threads), state);
+    ground->add_body(box_mesh({0.015, 0.015, half_height_m}), sole_at(0));
+    return ground;
+  };
+  const auto press = [&](DemTerrain& ground, int first, int last) {
+    std::vector<double> trace;
+    for (int i = first; i < last; ++i) {
+      const Wrench w = advance(ground, sole_at(i), sole_at(i + 1));
+      for (int axis = 0; axis < 3; ++axis) {
+        trace.push_back(w.f_W_N[axis]), trace.push_back(w.tau_Bo_W_Nm[axis]);
+      }
+      trace.push_back(ground.work_on_bodies_J());
+    }
+    return trace;
+  };
+  // 5 mm deep, with sliding contacts and neighbours of long ago; then as far again, through
+  // rebuilds of the lists.
+  const int cut = 300, end = 600;
+  const auto undisturbed = make(1);
+  press(*undisturbed, 0, cut);
+  const std::uint64_t rebuilds = undisturbed->bed().health().rebuilds;
+  const std::string snapshot = undisturbed->snapshot();
+  const std::vector<double> expected = press(*undisturbed, cut, end);
+  REQUIRE(expected[expected.size() - 5] != 0);
+  REQUIRE(undisturbed->bed().health().rebuilds > rebuilds);
+  for (const int threads : {1, 2, 4}) {
+    CAPTURE(threads);
+    const auto resumed = make(threads);
+    resumed->restore(snapshot);
+    CHECK(resumed->snapshot() == snapshot);
+    CHECK(press(*resumed, cut, end) == expected);
+    CHECK(resumed->bed().state_hash() == undisturbed->bed().state_hash());
+    CHECK(resumed->bed().health().steps == undisturbed->bed().health().steps);
+    CHECK(resumed->bed().health().rebuilds == undisturbed->bed().health().rebuilds);
+    CHECK(resumed->bed().health().deepest_boundary_ratio ==
+          undisturbed->bed().health().deepest_boundary_ratio);
+  }
+  // Cut short it is refused.
+  for (const std::size_t size : {std::size_t(0), std::size_t(7), std::size_t(100),
+                                 snapshot.size() / 2, snapshot.size() - 1}) {
+    CAPTURE(size);
+    CHECK_THROWS_AS(make(1)->restore(std::string_view(snapshot).substr(0, size)),
+                    std::runtime_error);
+  }
 }

@@ -83,6 +83,12 @@ TEST_CASE("impossible values are refused, naming flag and bound") {
       {{"--seed", "-1"}, "--seed"},
       {{"--set", "seed"}, "--set: 'seed' is not of the form key=value"},
       {{"--set", "=3"}, "--set: '=3' is not of the form key=value"},
+      {{"--checkpoint-every", "-1"}, "--checkpoint-every: -1 minutes is below 0"},
+      {{"--checkpoint-every", "nan"}, "--checkpoint-every: 'nan' is not a number (in minutes)"},
+      {{"--resume", "run", "--toe", "5"},
+       "--resume: goes on with the settings of the run; --toe cannot be given with it"},
+      {{"--set", "a=1", "--resume", "run"},
+       "--resume: goes on with the settings of the run; --set cannot be given with it"},
   };
   for (const Case& c : cases) {
     CAPTURE(c.arguments);
@@ -95,6 +101,11 @@ TEST_CASE("impossible values are refused, naming flag and bound") {
 TEST_CASE("the bounds themselves are allowed") {
   CHECK(sinkage({"--toe", "0"}) == Strings{"experiment.toe_deg=0"});
   CHECK(sinkage({"--toe", "40"}) == Strings{"experiment.toe_deg=40"});
+}
+
+TEST_CASE("what does not change the run may be said when it is resumed") {
+  CHECK(sinkage({"--resume", "run", "--checkpoint-every", "0", "--force", "--live", "--quiet"})
+            .empty());
 }
 
 TEST_CASE("flags of the other experiment are unknown") {

@@ -8,29 +8,18 @@
 #include <sstream>
 
 #include "tests/tools/experiment/program.h"
+#include "tests/tools/experiment/test_sand.h"
 
+using hoof::tests::joined;
 using hoof::tests::run_program;
 using hoof::tests::ScratchFolder;
 using hoof::tools::read_file;
 namespace fs = std::filesystem;
-using Strings = std::vector<std::string>;
+using hoof::tests::Strings;
 
 namespace {
 
 constexpr double kDegree_rad = 0.017453292519943295;
-
-/// About 5,600 of the demo's coarse grains in the smallest box that foot and path fit in.
-const Strings kBed = {"bed.box_length_mm=330", "bed.box_width_mm=260", "bed.depth_mm=93"};
-
-/// Weaker sand than the paper's (0.52, 0.34): between grains half as wide as the sole, the paper's
-/// carries a foot on a few chains of grains, and no test can tell one foot from the other.
-const Strings kWeakSand = {"materials.sand_sand.static_friction=0.35",
-                           "materials.sand_sand.rolling_friction=0.1"};
-
-Strings joined(Strings a, const Strings& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
 
 /// A finished run on the small bed.
 struct Run {
@@ -38,11 +27,8 @@ struct Run {
   fs::path folder = scratch.path() / "run";
 
   explicit Run(const Strings& command, const Strings& set) {
-    Strings arguments = joined(command, {"--quiet", "--out", folder.string()});
-    for (const std::string& setting : joined(joined(kBed, kWeakSand), set)) {
-      arguments.push_back("--set");
-      arguments.push_back(setting);
-    }
+    const Strings arguments = joined(joined(command, {"--quiet", "--out", folder.string()}),
+                                     hoof::tests::on_test_sand(set));
     const auto outcome = run_program(arguments);
     INFO(outcome.errors);
     REQUIRE(outcome.status == 0);

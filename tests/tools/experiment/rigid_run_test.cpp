@@ -194,8 +194,9 @@ TEST_CASE("a killed run leaves nothing that looks like a result") {
   CHECK(program.wait().status == -SIGKILL);
   CHECK_FALSE(fs::exists(out));
   for (const std::string& name : names_in(scratch.path())) CHECK(name.front() == '.');
-  // Nor is it in the way of the next one.
+  // Nor is it in the way of the next one, which clears it away.
   CHECK(run_program(rigid("sinkage", out)).status == 0);
+  CHECK(names_in(scratch.path()) == Strings{"run"});
 }
 
 TEST_CASE("a file that cannot grow ends the run with status 2 and nothing half-written") {
