@@ -1,4 +1,5 @@
-// What a bed can and cannot tell: lengths of foot and test over the grain size.
+// What a bed can and cannot tell: lengths of foot and test over the grain size, and the box over
+// the foot. The bounds come from the studies of RESOLUTION.md beside this file.
 #pragma once
 
 #include <optional>
@@ -16,6 +17,7 @@ struct Resolution {
   double sinkage_over_d50 = 0;
   double box_length_over_foot = 0;
   double box_width_over_foot = 0;
+  double bed_depth_over_foot_width = 0;
   /// In words, each with the ratio and the bound that it misses.
   std::vector<std::string> claims_refused;
 };
@@ -23,5 +25,10 @@ struct Resolution {
 /// @param footprint_x_m, footprint_y_m outer size of the foot on the ground, toes as opened
 Resolution assess_resolution(const BedSettings& bed, const FootGeometry& foot, double footprint_x_m,
                              double footprint_y_m, double sinkage_m);
+
+/// For people before a long run: each line names a side of the box that is too small for this foot,
+/// its bound, and by how much forces in it may be off. Empty where the box is large enough.
+std::vector<std::string> box_warnings(const BedSettings& bed, double footprint_x_m,
+                                      double footprint_y_m);
 
 }  // namespace hoof::sim

@@ -53,7 +53,7 @@ void run_cell_size_study(const StudyOptions& options) {
                {"seed_count"},
                {"time_s", 2},
                {"particle_step_count"},
-               {"million_particle_steps_Hz", 1},
+               {"particle_step_rate_Hz", 0},
                {"rebuild_count"},
                {"force_N", 2},
                {"largest_difference_ratio", 5}});
@@ -63,7 +63,7 @@ void run_cell_size_study(const StudyOptions& options) {
     const double wall_s = curves[i].samples.back().wall_s;
     const double particle_steps = curves[i].grain_count * c.steps();
     table.row({c.cell_m * 1e3, c.cell_m / (0.5 * c.bed.smallest_diameter_m()), std::int64_t(c.seed),
-               wall_s, std::int64_t(particle_steps), particle_steps / wall_s * 1e-6,
+               wall_s, std::int64_t(particle_steps), particle_steps / wall_s,
                std::int64_t(curves[i].samples.back().rebuild_count), curves[i].force_at_N(kTo_m),
                largest_difference(curves[i], curves[i % beds])});
     if (i % beds == 0) {

@@ -100,11 +100,11 @@ class ResolutionStudy {
       const Indenter plain = make_strip(g, whole.width_m, false);
       const Indenter spined = make_strip(g, whole.width_m, true);
       const double area_m2 = whole.width_m * g.middle.width_m;
-      add({"strip, smooth", "spines", scale, whole, area_m2, {}, {}},
+      add({"smooth strip", "spines", scale, whole, area_m2, {}, {}},
           bench_.bed(scale, whole, false), plain, spined);
       groups_.back().plain.smooth = groups_.back().changed.smooth = true;
       if (half.length_m < 6 * scale * bench_.settings().bed.largest_diameter_m()) continue;
-      add({"half strip, mirror", "spines", scale, half, area_m2 / 2, {}, {}},
+      add({"half at a mirror", "spines", scale, half, area_m2 / 2, {}, {}},
           bench_.bed(scale, half, false), plain, spined);
       for (PressCase* c : {&groups_.back().plain, &groups_.back().changed}) {
         c->smooth = true;

@@ -92,6 +92,24 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("half a strip at a mirror stands beside the whole one, in half the box") {
+  const ScratchFolder scratch;
+  StudyOptions options = coarse(scratch);
+  options.bodies = {"mirror"};
+  options.lengths_mm = {280};
+  printed(run_resolution_study, options);
+  const SampleTable table = read_samples(options.out / "resolution.csv");
+  CHECK(table.find("body_name")->texts.front() == "smooth strip");
+  CHECK(table.find("body_name")->texts.back() == "half at a mirror");
+  CHECK(table.find("box_mm_name")->texts.front() == "280x150x100");
+  CHECK(table.find("box_mm_name")->texts.back() == "140x150x100");
+  // The same pressure within a factor of three: 1,000 grains 40 mm from a wall scatter as much.
+  const auto& pressure_Pa = table.find("pressure_Pa")->numbers;
+  REQUIRE(pressure_Pa.size() == 6);
+  CHECK(pressure_Pa.back() < 3 * pressure_Pa[2]);
+  CHECK(pressure_Pa.back() > pressure_Pa[2] / 3);
+}
+
 TEST_CASE("the time-step study compares every step with the shortest") {
   const ScratchFolder scratch;
   StudyOptions options = coarse(scratch);
