@@ -72,9 +72,10 @@ struct SandBed::ImplOf final : SandBed::Impl {
   void share_out();
   void compute_forces(const StepArguments<Real>& a);
   void share_windows(int member, const std::function<void(std::uint32_t, std::uint32_t)>& work);
-  void take_results(bool account);
+  void take_results();
   void check_speed(double fastest_m_s);
   void check_load(const WindowResult& worst);
+  void check_places();
   std::string grain_text(std::uint32_t row) const;
   Record to_record(const Grain& g) const;
   Record padding() const;

@@ -60,6 +60,30 @@ void SandBed::ImplOf<Real>::check_load(const WindowResult& worst) {
   }
 }
 
+/// At an audit: no grain may be behind a wall or about to leave the domain, where it would come in
+/// again on the other side.
+template <typename Real>
+void SandBed::ImplOf<Real>::check_places() {
+  const double until_next_s = settings.audit_steps * settings.dt_s;
+  for (std::uint32_t row = 0; row < count; ++row) {
+    const Eigen::Vector3d p_m = domain.position_m(now[row]);
+    const Eigen::Vector3d v_m_s(now[row].vx, now[row].vy, now[row].vz);
+    bool lost = false;
+    for (const Wall& w : settings.walls) {
+      lost |= w.normal.dot(p_m) - w.offset_m < -double(now[row].radius_m);
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      const double x_m = p_m[axis] - domain.origin_m[axis] + v_m_s[axis] * until_next_s;
+      lost |= !domain.periodic[std::size_t(axis)] && !(x_m > 0 && x_m < domain.length_m(axis));
+    }
+    if (!lost) continue;
+    throw std::runtime_error("bed: lost at step " + std::to_string(health.steps) + ": " +
+                             grain_text(row) +
+                             " is behind a wall or at the edge of the domain; a smaller time step "
+                             "may help: raise bed.steps_per_ms");
+  }
+}
+
 template <typename Real>
 double SandBed::ImplOf<Real>::coordination_number() const {
   std::uint64_t touches = 0;
@@ -139,6 +163,7 @@ std::size_t SandBed::ImplOf<Real>::memory_bytes() const {
 #define HOOF_INSTANTIATE(Real)                                             \
   template void SandBed::ImplOf<Real>::check_speed(double);                \
   template void SandBed::ImplOf<Real>::check_load(const WindowResult&);    \
+  template void SandBed::ImplOf<Real>::check_places();                     \
   template double SandBed::ImplOf<Real>::coordination_number() const;      \
   template double SandBed::ImplOf<Real>::kinetic_energy_J() const;         \
   template EnergyBalance SandBed::ImplOf<Real>::energy() const;            \

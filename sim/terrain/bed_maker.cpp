@@ -156,44 +156,49 @@ void BedMaking::begin(Stage stage) {
 
 void BedMaking::begin_fall() {
   state_.grains = rain_.grains();
-  DemSettings falling = dem_;
-  falling.grain_grain.static_friction = settings_.packing_friction;
-  falling.grain_wall.static_friction = settings_.packing_friction;
-  falling.grain_grain.rolling_friction = settings_.packing_rolling_friction;
-  falling.grain_wall.rolling_friction =
-      std::min(settings_.packing_rolling_friction, dem_.grain_wall.rolling_friction);
-  sand_ = std::make_unique<SandBed>(falling, state_);
-  lift_energy_J_ = lift_energy_J(state_, dem_);
+  make_sand(Stage::kFall);
 }
 
 void BedMaking::begin_level() {
   state_ = sand_->state();
   scrape(state_);
-  start_level();
+  make_sand(Stage::kLevel);
 }
 
-void BedMaking::start_level() {
-  sand_ = std::make_unique<SandBed>(dem_, state_);
+/// The sand of a stage, from state_.
+void BedMaking::make_sand(Stage stage) {
+  DemSettings settings = dem_;
+  if (stage == Stage::kFall) {
+    settings.grain_grain.static_friction = settings_.packing_friction;
+    settings.grain_wall.static_friction = settings_.packing_friction;
+    settings.grain_grain.rolling_friction = settings_.packing_rolling_friction;
+    settings.grain_wall.rolling_friction =
+        std::min(settings_.packing_rolling_friction, dem_.grain_wall.rolling_friction);
+  }
+  sand_ = std::make_unique<SandBed>(settings, state_);
   lift_energy_J_ = lift_energy_J(state_, dem_);
 }
 
 std::string BedMaking::snapshot() const {
-  if (stage_ != Stage::kLevel || stage_time_s_ > 0) return {};
+  if (sand_ == nullptr) return {};
   ByteWriter w;
-  w.put(share_done_), w.put(steps_);
+  w.put(stage_), w.put(stage_time_s_), w.put(highest_ratio_), w.put(energy_ratio_);
+  w.put(quiet_pieces_), w.put(share_done_), w.put(steps_);
   put_state(w, state_);
+  w.put_all(sand_->snapshot());
   return w.take();
 }
 
 void BedMaking::restore(std::string_view snapshot) {
   ByteReader r(snapshot);
-  r.get(share_done_), r.get(steps_);
+  r.get(stage_), r.get(stage_time_s_), r.get(highest_ratio_), r.get(energy_ratio_);
+  r.get(quiet_pieces_), r.get(share_done_), r.get(steps_);
   state_ = get_state(r);
+  std::string sand;
+  r.get_all(sand);
   if (!r.at_end()) throw std::runtime_error("bed: the snapshot is too long");
-  stage_ = Stage::kLevel;
-  stage_time_s_ = highest_ratio_ = 0;
-  quiet_pieces_ = 0;
-  start_level();
+  make_sand(stage_);
+  sand_->restore(sand);
   sand_->set_viscous_rate(rule(stage_).viscous_rate_1_s);
 }
 

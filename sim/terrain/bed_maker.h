@@ -37,8 +37,8 @@ class BedMaking {
   /// Share of the work done: a guess, as nobody knows when grains come to rest. Never falls.
   double share_done() const { return share_done_; }
 
-  /// Bytes from which restore() goes on to the same bed, bit by bit. Empty while there are none:
-  /// so far a bed can be taken up again only where its sand is taken to pieces, after levelling.
+  /// Bytes from which restore() goes on to the same bed, bit by bit, some 300 a grain. Empty while
+  /// grains are placed, which takes less time than writing them.
   std::string snapshot() const;
 
   /// Goes on from a snapshot of a making with the same settings, materials and seed.
@@ -62,7 +62,7 @@ class BedMaking {
   void begin(Stage stage);
   void begin_fall();
   void begin_level();
-  void start_level();
+  void make_sand(Stage stage);
   void settle();
   double stage_share() const;
 

@@ -37,20 +37,21 @@ void require_place(const std::filesystem::path& file) {
 
 class Making {
  public:
-  Making(const ChosenBed& chosen, bool quiet)
+  Making(const ChosenBed& chosen, const MakeBedOptions& options)
       : chosen_(chosen),
-        quiet_(quiet),
+        quiet_(options.quiet),
+        keep_every_s_(60 * options.checkpoint_every_min),
         bed_(chosen.bed, chosen.materials, chosen.seed, chosen.threads),
         checkpoints_(chosen.file.string() + ".making", chosen.key()),
-        progress_("making the bed '" + chosen.bed.name + "'", choose_progress_style(quiet),
+        progress_("making the bed '" + chosen.bed.name + "'", choose_progress_style(options.quiet),
                   std::cerr) {}
 
   void go() {
     resume();
     while (bed_.advance()) {
       progress_.update(bed_.share_done(), std::string(bed_.stage_name()));
-      keep();
       if (stop_.requested()) stop();
+      if (wall_s() - kept_at_s_ >= keep_every_s_) keep();
     }
     progress_.update(1);
     progress_.finish();
@@ -81,12 +82,14 @@ class Making {
     payload.get_all(snapshot);
     bed_.restore(snapshot);
     kept_ = true;
+    kept_at_s_ = wall_s();
     note("going on with the bed '" + chosen_.bed.name + "': " + std::string(bed_.stage_name()) +
          ", step " + std::to_string(bed_.steps()));
   }
 
   void keep() {
     const std::string snapshot = bed_.snapshot();
+    kept_at_s_ = wall_s();
     if (snapshot.empty()) return;
     sim::ByteWriter payload;
     payload.put(wall_s());
@@ -96,21 +99,23 @@ class Making {
   }
 
   [[noreturn]] void stop() {
+    keep();
     progress_.finish();
     throw Interrupted("stopped while the bed was " + std::string(bed_.stage_name()) +
-                          (kept_ ? "; the same command goes on from where it was levelled"
-                                 : "; nothing is kept before it is levelled"),
+                          (kept_ ? "; the same command goes on from there"
+                                 : "; nothing is kept while grains are placed"),
                       stop_.exit_status());
   }
 
   const ChosenBed& chosen_;
   bool quiet_;
+  double keep_every_s_;
   StopRequest stop_;
   sim::BedMaking bed_;
   sim::CheckpointFiles checkpoints_;
   ProgressLine progress_;
   bool kept_ = false;
-  double earlier_wall_s_ = 0;
+  double earlier_wall_s_ = 0, kept_at_s_ = 0;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
@@ -121,7 +126,7 @@ void make_bed(const MakeBedOptions& options) {
   if (!options.out.empty()) chosen.file = options.out;
   if (!is_there(chosen, options.force)) {
     require_place(chosen.file);
-    Making(chosen, options.quiet).go();
+    Making(chosen, options).go();
   }
   const sim::BedState state = sim::read_bed_file(chosen.file, chosen.key());
   std::fputs(bed_text(chosen, sim::inspect_bed(chosen.bed, chosen.materials, state)).c_str(),

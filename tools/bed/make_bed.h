@@ -12,6 +12,7 @@ struct MakeBedOptions {
   std::filesystem::path out;  ///< empty: where runs look for it
   bool force = false;         ///< make it again, in place of one that is there
   bool quiet = false;
+  double checkpoint_every_min = 2;  ///< writing a million grains takes about a second
 };
 
 /// Makes the bed unless it is there, and prints its report; the file's path is the last line.

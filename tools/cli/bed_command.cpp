@@ -51,6 +51,12 @@ void add_make(CLI::App& parent, Invocation& invocation) {
       ->type_name("FILE");
   command->add_flag("--force", options->force, "Make it again even if it is there");
   command->add_flag("--quiet", options->quiet, "Show no progress");
+  command
+      ->add_option("--checkpoint-every", options->checkpoint_every_min,
+                   "Minutes between checkpoints, from which the same command goes on")
+      ->type_name("MIN")
+      ->check(CLI::Range(0.0, 1e4))
+      ->capture_default_str();
   command->footer(
       "Examples:\n"
       "  hoof bed make --bed bench --threads 2\n"

@@ -83,3 +83,19 @@ TEST_CASE("an unstable step is found before anything flies") {
   CHECK_THROWS_WITH(bed.advance(1), Catch::Contains("step 1") && Catch::Contains("60.0") &&
                                         Catch::Contains("bed.steps_per_ms"));
 }
+
+TEST_CASE("a grain behind a wall or at the domain's edge is found and named") {
+  DemSettings s = paper_settings();
+  s.walls = {{Eigen::Vector3d::UnitZ(), -0.02}};
+  s.wall_material.young_modulus_Pa = 1;  // or it would throw the grain out at once
+  s.audit_steps = 100;
+  BedState state;
+  state.grains = {grain_at(0, 4e-3, {0, 0, 0}), grain_at(7, 4e-3, {0.01, 0, -0.0221})};
+  SandBed through(s, state);  // its centre is further behind the wall than its radius
+  CHECK_THROWS_WITH(through.advance(1), Catch::Contains("lost at step 1: grain 7 of 4.0") &&
+                                            Catch::Contains("bed.steps_per_ms"));
+  state.grains = {grain_at(0, 4e-3, {0, 0, 0}), grain_at(7, 4e-3, {0.0495, 0, 0}, {1, 0, 0})};
+  SandBed leaving(s, state);
+  CHECK_THROWS_WITH(leaving.advance(200),
+                    Catch::Contains("lost at step") && Catch::Contains("edge of the domain"));
+}

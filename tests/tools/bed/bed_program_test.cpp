@@ -90,8 +90,9 @@ TEST_CASE("a making that is killed goes on from its checkpoint and ends with the
   const ScratchFolder scratch;
   const fs::path calm = scratch.path() / "calm.bed", killed = scratch.path() / "killed.bed";
   REQUIRE(shell(kBed + "make --quiet" + kSmall + " --out " + calm.string()).status == 0);
-  // Killed as soon as there is a checkpoint.
-  const std::string again = kBed + "make" + kSmall + " --out " + killed.string() + " 2>&1";
+  // Killed as soon as there is a checkpoint: while the grains fall.
+  const std::string again =
+      kBed + "make --checkpoint-every 0" + kSmall + " --out " + killed.string() + " 2>&1";
   const Outcome shot = shell(again + " >/dev/null & job=$!; until ls '" + killed.string() +
                              ".making'/checkpoint-* >/dev/null 2>&1; do sleep 0.01; done; "
                              "kill -9 $job; wait $job");
@@ -99,7 +100,7 @@ TEST_CASE("a making that is killed goes on from its checkpoint and ends with the
   REQUIRE_FALSE(fs::exists(killed));
   const Outcome resumed = shell(again);
   CHECK(resumed.status == 0);
-  CHECK_THAT(resumed.text, Catch::Contains("going on with the bed 'demo'"));
+  CHECK_THAT(resumed.text, Catch::Contains("going on with the bed 'demo': falling"));
   CHECK(read_file(killed) == read_file(calm));
   CHECK_FALSE(fs::exists(killed.string() + ".making"));
 }
