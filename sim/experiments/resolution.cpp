@@ -11,7 +11,7 @@ namespace {
 // once the sole was 1.4 d50 deep; before that a coarse bed shows too few grains to the sole.
 constexpr double kSpinePitch_d50 = 2.6;
 constexpr double kSpineSinkage_d50 = 1.4;
-// Of a sole of 40 mm on the same grains, against the finest: within the error (7 %) where both
+// Of a sole of 40 mm on the same grains, against the finest: within the error of 5 % where both
 // hold.
 constexpr double kSoleWidth_d50 = 7;
 constexpr double kSinkage_d50 = 2;
