@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <filesystem>
 
+#include "sim/experiments/resolution.h"
 #include "sim/multibody/prescribed_rig.h"
 #include "sim/multibody/sinkage_rig.h"
 #include "sim/multibody/traction_rig.h"
@@ -51,6 +52,10 @@ std::unique_ptr<sim::Terrain> make_terrain(const RunSettings& run, const BenchPr
                                            const BenchNote& note,
                                            const std::optional<sim::JournalSettings>& journal) {
   if (!run.on_grains) return std::make_unique<sim::RigidTerrain>(run.rigid);
+  const Eigen::Vector2d print_m = footprint_m(run.foot, run.toe_rad());
+  for (const std::string& warning : sim::box_warnings(run.bed, print_m.x(), print_m.y())) {
+    note(warning);
+  }
   auto sand = std::make_unique<sim::DemTerrain>(
       sim::dem_settings(run.bed, run.materials, run.threads), settled_bed(run, progress, note));
   if (!journal) return sand;

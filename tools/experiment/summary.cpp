@@ -42,6 +42,7 @@ Json resolution(const RunSettings& run, double sinkage_m) {
   j["sinkage_over_d50"] = r.sinkage_over_d50;
   j["box_length_over_foot"] = r.box_length_over_foot;
   j["box_width_over_foot"] = r.box_width_over_foot;
+  j["bed_depth_over_foot_width"] = r.bed_depth_over_foot_width;
   j["claims_refused"] = r.claims_refused;
   return j;
 }
