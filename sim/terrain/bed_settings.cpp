@@ -131,7 +131,7 @@ DemSettings dem_settings(const BedSettings& bed, const Materials& materials, int
   DemSettings s;
   const double x = bed.box_length_m / 2, y = bed.box_width_m / 2;
   // Room outside of the walls for grains that press into them, and above for the rain of grains and
-  // for what a foot throws up: three depths.
+  // for what a foot throws up: three depths, less the room above the lid.
   const double room_m = bed.periodic_sides ? 0 : 2 * bed.largest_diameter_m();
   s.low_m = {-x - room_m, -y - room_m, -bed.depth_m - 2 * bed.largest_diameter_m()};
   s.high_m = {x + room_m, y + room_m, 3 * bed.depth_m};
@@ -143,6 +143,9 @@ DemSettings dem_settings(const BedSettings& bed, const Materials& materials, int
     s.walls.push_back({Eigen::Vector3d::UnitY(), -y});
     s.walls.push_back({-Eigen::Vector3d::UnitY(), -y});
   }
+  // A lid for what a foot throws up: without it a grain would leave the domain, and with it the
+  // bed.
+  s.walls.push_back({-Eigen::Vector3d::UnitZ(), -s.high_m.z() + 4 * bed.largest_diameter_m()});
   s.grain_material = elastic(materials.sand);
   s.wall_material = elastic(materials.abs);
   s.grain_grain = coefficients(materials.sand_sand);

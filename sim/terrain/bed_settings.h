@@ -52,7 +52,7 @@ struct BedSettings {
 /// Reads the section "bed" of a run. @throws ConfigError
 BedSettings read_bed(Reader section);
 
-/// Constants for the engine: domain, walls (floor first, then -x +x -y +y) and laws.
+/// Constants for the engine: domain, walls (floor first, then -x +x -y +y, lid last) and laws.
 DemSettings dem_settings(const BedSettings& bed, const Materials& materials, int threads);
 
 }  // namespace hoof::sim

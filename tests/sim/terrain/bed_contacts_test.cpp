@@ -109,8 +109,8 @@ TEST_CASE("contacts of what is not there are refused") {
   state.contacts = {{3, 5, Eigen::Vector3d::Zero()}};
   CHECK_THROWS_WITH(loaded_contacts(settings(), state),
                     "bed: a contact names grain 5, which is not there");
-  state.contacts = {{3, GrainContact::kWallContact + 1, Eigen::Vector3d::Zero()}};
-  CHECK_THROWS_WITH(loaded_contacts(settings(true), state), "bed: a contact names wall 1 of 1");
+  state.contacts = {{3, GrainContact::kWallContact + 2, Eigen::Vector3d::Zero()}};
+  CHECK_THROWS_WITH(loaded_contacts(settings(true), state), "bed: a contact names wall 2 of 2");
 }
 
 TEST_CASE("in a bed at rest the contacts carry each grain's weight") {

@@ -147,14 +147,19 @@ TEST_CASE("settings without a file are checked too") {
   CHECK_NOTHROW(bed.validate());
 }
 
-TEST_CASE("walls stand around the box, floor first, with room in the domain") {
+TEST_CASE("walls stand around the box, floor first, a lid above, with room in the domain") {
   BedSettings bed = small_bed();
   bed.box_width_m = 0.05;
   const DemSettings walled = dem_settings(bed, shipped_materials(), 2);
   CHECK_NOTHROW(walled.validate());
-  REQUIRE(walled.walls.size() == 5);
+  REQUIRE(walled.walls.size() == 6);
+  const Wall& lid = walled.walls.back();
+  CHECK(lid.normal == -Eigen::Vector3d::UnitZ());
+  CHECK(-lid.offset_m > bed.depth_m / 2);
+  CHECK(-lid.offset_m < walled.high_m.z() - 3 * bed.largest_diameter_m());
   const Eigen::Vector3d inside(0.02999, 0.02499, -0.02999), outside(0.03001, 0.02501, -0.03001);
-  for (const Wall& w : walled.walls) {
+  for (std::size_t i = 0; i < 5; ++i) {
+    const Wall& w = walled.walls[i];
     // A grain's centre at a wall's own plane, from the middle of the box.
     const int axis = std::abs(w.normal.x()) > 0 ? 0 : std::abs(w.normal.y()) > 0 ? 1 : 2;
     Eigen::Vector3d p(0, 0, -0.015);
@@ -173,7 +178,7 @@ TEST_CASE("walls stand around the box, floor first, with room in the domain") {
 
   bed.periodic_sides = true;
   const DemSettings periodic = dem_settings(bed, shipped_materials(), 1);
-  CHECK(periodic.walls.size() == 1);
+  CHECK(periodic.walls.size() == 2);  // floor and lid
   CHECK(periodic.periodic == std::array<bool, 3>{true, true, false});
   CHECK(periodic.high_m.x() - periodic.low_m.x() == Approx(0.06).epsilon(1e-15));
   CHECK(periodic.high_m.y() - periodic.low_m.y() == Approx(0.05).epsilon(1e-15));
