@@ -1,5 +1,6 @@
 #include "sim/terrain/bed_settings.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -144,8 +145,9 @@ DemSettings dem_settings(const BedSettings& bed, const Materials& materials, int
     s.walls.push_back({-Eigen::Vector3d::UnitY(), -y});
   }
   // A lid for what a foot throws up: without it a grain would leave the domain, and with it the
-  // bed.
-  s.walls.push_back({-Eigen::Vector3d::UnitZ(), -s.high_m.z() + 4 * bed.largest_diameter_m()});
+  // bed. Above it, room as outside of the walls, but in beds of a few grains.
+  const double lid_m = std::max(2 * bed.depth_m, 3 * bed.depth_m - 4 * bed.largest_diameter_m());
+  s.walls.push_back({-Eigen::Vector3d::UnitZ(), -lid_m});
   s.grain_material = elastic(materials.sand);
   s.wall_material = elastic(materials.abs);
   s.grain_grain = coefficients(materials.sand_sand);

@@ -155,8 +155,8 @@ TEST_CASE("walls stand around the box, floor first, a lid above, with room in th
   REQUIRE(walled.walls.size() == 6);
   const Wall& lid = walled.walls.back();
   CHECK(lid.normal == -Eigen::Vector3d::UnitZ());
-  CHECK(-lid.offset_m > bed.depth_m / 2);
-  CHECK(-lid.offset_m < walled.high_m.z() - 3 * bed.largest_diameter_m());
+  CHECK(-lid.offset_m >= 2 * bed.depth_m);
+  CHECK(-lid.offset_m < walled.high_m.z() - bed.largest_diameter_m());
   const Eigen::Vector3d inside(0.02999, 0.02499, -0.02999), outside(0.03001, 0.02501, -0.03001);
   for (std::size_t i = 0; i < 5; ++i) {
     const Wall& w = walled.walls[i];
