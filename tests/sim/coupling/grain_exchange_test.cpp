@@ -92,14 +92,14 @@ Dragged drag(const BedSettings& bed, const BedState& state, double exchange_s) {
 
 }  // namespace
 
-TEST_CASE("halving the exchange on grains changes the deepest point by less than 2 %") {
-  const BedSettings bed = small_bed();
+TEST_CASE("halving the exchange on grains changes the deepest point by less than 1 %") {
+  BedSettings bed = small_bed();
+  bed.precision = Precision::kDouble;  // as below: in mixed precision single grains make 1.5 %
   const BedState state = make_small_bed(bed, GENERATE(1, 2, 3));
   const Sunk whole = sink(bed, state, 50e-6), half = sink(bed, state, 25e-6);
   CAPTURE(whole.max_depth_m, half.max_depth_m, whole.work_J, whole.error_J, half.error_J);
   CHECK(whole.max_depth_m > 0.5e-3);
-  // 0.1 to 1.5 % on three beds: what grains do that slip a little earlier or later.
-  CHECK(half.max_depth_m == Approx(whole.max_depth_m).epsilon(0.02));
+  CHECK(half.max_depth_m == Approx(whole.max_depth_m).epsilon(0.01));
   // The plant makes up for the age of the ground's mean force; without that 2 to 4 % of the work
   // were made anew, and at 100 N the depth changed by up to 2.9 %.
   CHECK(whole.work_J < 0);
