@@ -20,7 +20,7 @@ std::string name_of(std::span<const ValueName> names, std::uint32_t value) {
   return std::to_string(value);
 }
 
-std::string fault_names(std::uint16_t faults) {
+std::string fault_names(std::uint32_t faults) {
   std::string text;
   for (const ValueName& n : kFaultBitNames) {
     if (faults >> n.value & 1) text += (text.empty() ? "" : ", ") + std::string(n.name);
@@ -82,10 +82,10 @@ void Supervisor::take_acknowledge(const OrderAcknowledge& answer) {
 }
 
 void Supervisor::take_heartbeat(const Heartbeat& heartbeat) {
-  if (heartbeat.protocol_hash != kProtocolHash) {
+  if (heartbeat.protocol_hash != kHeartbeatHash) {
     heartbeat_.reset();
     refusal_ = "the firmware speaks another dictionary: its protocol hash is " +
-               std::to_string(heartbeat.protocol_hash) + ", ours " + std::to_string(kProtocolHash);
+               std::to_string(heartbeat.protocol_hash) + ", ours " + std::to_string(kHeartbeatHash);
     return;
   }
   heartbeat_ = heartbeat;

@@ -207,8 +207,8 @@ void ControlLoop::send_telemetry() {
     case 9:
       if (counters_.ticks % 100 != 9) return;
       return queue(encode(protocol::FootCounters{
-          counters_.ticks, static_cast<std::uint16_t>(counters_.bad_frames()),
-          static_cast<std::uint16_t>(counters_.missed_ticks)}));
+          counters_.ticks, static_cast<std::uint16_t>(counters_.missed_ticks),
+          static_cast<std::uint16_t>(counters_.stale_syncs)}));
     default:
       return;
   }
@@ -216,10 +216,9 @@ void ControlLoop::send_telemetry() {
 
 void ControlLoop::send_heartbeat_if_due(std::int64_t now_ns) {
   const protocol::Heartbeat now{static_cast<protocol::Mode>(controller_.mode()),
-                                controller_.faults(), gate_.verdict().active_limits(),
-                                protocol::kProtocolHash};
-  const bool changed = now.mode != heartbeat_.mode || now.faults != heartbeat_.faults ||
-                       now.active_limits != heartbeat_.active_limits;
+                                static_cast<std::uint8_t>((heartbeat_.counter + 1) & 0xF),
+                                controller_.faults(), protocol::kHeartbeatHash};
+  const bool changed = now.mode != heartbeat_.mode || now.faults != heartbeat_.faults;
   const std::int64_t age_ns = now_ns - heartbeat_ns_;
   const std::int64_t due_ns = changed ? kHeartbeatShortest_ns : kHeartbeatPeriod_ns;
   if (heartbeat_sent_ && age_ns < due_ns) return;

@@ -39,12 +39,19 @@ static_assert(fault_named(control::fault::kBusOff, "bus_off"));
 static_assert(fault_named(control::fault::kDriveError, "drive_error"));
 static_assert(fault_named(control::fault::kImplausibleReply, "implausible_reply"));
 static_assert(fault_named(control::fault::kOverTemperature, "over_temperature"));
+static_assert(fault_named(control::fault::kOverload, "overload"));
+static_assert(fault_named(control::fault::kNotFollowing, "not_following"));
 static_assert(fault_named(control::fault::kHomingFailed, "homing_failed"));
 static_assert(fault_named(control::fault::kToeJammed, "toe_jammed"));
+static_assert(fault_named(control::fault::kToeStalled, "toe_stalled"));
 static_assert(fault_named(control::fault::kOutsideTravel, "outside_travel"));
 static_assert(fault_named(control::fault::kPathUnreachable, "path_unreachable"));
 static_assert(fault_named(control::fault::kEmergencyStop, "emergency_stop"));
 static_assert(fault_named(control::fault::kInvalidWish, "invalid_wish"));
+static_assert(fault_named(control::fault::kOverrun, "overrun"));
+static_assert(fault_named(control::fault::kStorage, "storage"));
+static_assert(fault_named(control::fault::kBrownOut, "brown_out"));
+static_assert(fault_named(control::fault::kWatchdogReset, "watchdog_reset"));
 
 constexpr bool limit_named(safety::LimitBits bits, std::string_view name) {
   return named(protocol::kLimitBitNames, bits, name);
@@ -57,6 +64,7 @@ static_assert(limit_named(safety::limit::kVelocity, "velocity"));
 static_assert(limit_named(safety::limit::kGain, "gain"));
 static_assert(limit_named(safety::limit::kRefused, "refused"));
 static_assert(limit_named(safety::limit::kLatched, "latched"));
+static_assert(limit_named(safety::limit::kOverload, "overload"));
 
 /// What the gate lets through must fit the wire, half a code of torque included, or packing would
 /// change it once more.

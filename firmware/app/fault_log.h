@@ -42,11 +42,11 @@ enum class EraseResult : std::uint8_t {
 class FaultLog {
  public:
   using Word = hal::Nonvolatile::Word;
-  static constexpr std::uint32_t kLayout = 1;
-  /// 200 us of a tick at the flash's worst, 32 as a rule: a record takes 135 ticks.
+  static constexpr std::uint32_t kLayout = 2;
+  /// 200 us of a tick at the flash's worst, 32 as a rule: a record takes 148 ticks.
   static constexpr std::size_t kWordsPerStep = 2;
 
-  /// @param sector used for nothing else; 16 KB hold 15 records
+  /// @param sector used for nothing else; 16 KB hold 13 records
   FaultLog(hal::Nonvolatile& flash, std::size_t sector);
 
   LogState state() const { return state_; }

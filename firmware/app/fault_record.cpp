@@ -15,18 +15,12 @@ std::uint32_t crc(const FaultRecordWords& words) {
   return Crc32().add(std::span<const Word>(words).first(kFaultRecordWords - 1)).value();
 }
 
-/// Faults, mode and one more byte share a word.
-constexpr Word pack(control::FaultBits faults, control::Mode mode, std::uint8_t last) {
-  return static_cast<Word>(faults) << 16 | static_cast<Word>(mode) << 8 | last;
-}
-constexpr control::FaultBits packed_faults(Word word) {
-  return static_cast<control::FaultBits>(word >> 16);
-}
-constexpr control::Mode packed_mode(Word word) {
-  return static_cast<control::Mode>(word >> 8 & 0xFF);
-}
-constexpr std::uint8_t packed_last(Word word) {
-  return static_cast<std::uint8_t>(word);
+/// Twenty fault bits and twelve limit bits share a word.
+constexpr unsigned kLimitBits = 12;
+constexpr Word kLimitMask = (1u << kLimitBits) - 1u;
+
+constexpr Word pack(control::FaultBits faults, safety::LimitBits limits) {
+  return faults << kLimitBits | (limits & kLimitMask);
 }
 
 class Writer {
@@ -64,10 +58,12 @@ void encode(const FaultRecord& record, FaultRecordWords& words) {
   out.put(static_cast<Word>(time_ns));
   out.put(static_cast<Word>(time_ns >> 32));
   out.put(record.tick);
-  out.put(pack(record.faults, record.mode, static_cast<std::uint8_t>(record.trace_count)));
+  out.put(record.faults);
+  out.put(static_cast<Word>(record.mode) << 8 | static_cast<Word>(record.trace_count));
   for (const TraceSample& sample : record.trace) {
     out.put(sample.tick);
-    out.put(pack(sample.faults, sample.mode, sample.active_limits));
+    out.put(pack(sample.faults, sample.active_limits));
+    out.put(static_cast<Word>(sample.mode));
     out.put(sample.position_rad);
     out.put(sample.velocity_rad_s);
     out.put(sample.torque_Nm);
@@ -83,17 +79,17 @@ std::optional<FaultRecord> decode(const FaultRecordWords& words) {
   const std::uint64_t low = in.take();
   record.time_ns = static_cast<std::int64_t>(low | static_cast<std::uint64_t>(in.take()) << 32);
   record.tick = in.take();
+  record.faults = in.take();
   const Word bits = in.take();
-  record.faults = packed_faults(bits);
-  record.mode = packed_mode(bits);
-  record.trace_count = packed_last(bits);
+  record.mode = static_cast<control::Mode>(bits >> 8);
+  record.trace_count = bits & 0xFF;
   if (record.trace_count > TraceRing::kTicks) return std::nullopt;
   for (TraceSample& sample : record.trace) {
     sample.tick = in.take();
     const Word sample_bits = in.take();
-    sample.faults = packed_faults(sample_bits);
-    sample.mode = packed_mode(sample_bits);
-    sample.active_limits = packed_last(sample_bits);
+    sample.faults = sample_bits >> kLimitBits;
+    sample.active_limits = static_cast<safety::LimitBits>(sample_bits & kLimitMask);
+    sample.mode = static_cast<control::Mode>(in.take());
     in.take(sample.position_rad);
     in.take(sample.velocity_rad_s);
     in.take(sample.torque_Nm);

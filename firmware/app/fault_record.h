@@ -24,9 +24,9 @@ struct FaultRecord {
   friend bool operator==(const FaultRecord&, const FaultRecord&) = default;
 };
 
-inline constexpr std::size_t kTraceSampleWords = 2 + 3 * control::kJointCount;
+inline constexpr std::size_t kTraceSampleWords = 3 + 3 * control::kJointCount;
 inline constexpr std::size_t kFaultRecordWords =
-    1 + 2 + 1 + 1 + TraceRing::kTicks * kTraceSampleWords + 1;
+    1 + 2 + 1 + 2 + TraceRing::kTicks * kTraceSampleWords + 1;
 
 /// Magic, time, tick, bits, trace, CRC-32 of all before.
 using FaultRecordWords = std::array<hal::Nonvolatile::Word, kFaultRecordWords>;

@@ -24,7 +24,8 @@ void Inbox::take(const hal::CanFrame& frame, int bus_index, std::int64_t now_ns)
   const bool standard = !frame.extended && !frame.error;
   if (standard && frame.id == spec(Message::kEmergencyStop).id) {
     emergency_stop_ = true;  // by the identifier alone: any doubt stops
-    ++counters_.frames;
+    protocol::EmergencyStop press;
+    count(decode(frame, press));
     return;
   }
   const auto bus = static_cast<protocol::BusMask>(1 << bus_index);
@@ -60,6 +61,7 @@ void Inbox::take_reply(protocol::Drive drive, const hal::CanFrame& frame, std::i
   protocol::DriveReply reply;
   if (!count(decode_reply(drive, frame, reply))) return;
   JointState& joint = joints_[index(drive)];
+  joint.reading_rad = reply.position_rad;
   joint.position_rad = reply.position_rad - zero_rad_[index(drive)];
   joint.velocity_rad_s = reply.velocity_rad_s;
   joint.torque_Nm = reply.torque_Nm;

@@ -37,8 +37,9 @@ enum class Mode : std::uint8_t {
   kFault,         // exit frames, latched
 };
 
-/// One bit each; ranges: 0-3 communication, 4-7 drives, 8-11 motion, 12-15 orders and firmware.
-using FaultBits = std::uint16_t;
+/// One bit each; ranges: 0-3 communication, 4-8 drives, 9-13 motion, 14-17 orders and firmware,
+/// 18-19 board. Twenty at most: they share a word of the fault log with twelve limit bits.
+using FaultBits = std::uint32_t;
 namespace fault {
 inline constexpr FaultBits kSyncLost = 1u << 0;
 inline constexpr FaultBits kDriveLost = 1u << 1;
@@ -46,16 +47,24 @@ inline constexpr FaultBits kBusOff = 1u << 2;
 inline constexpr FaultBits kDriveError = 1u << 4;
 inline constexpr FaultBits kImplausibleReply = 1u << 5;
 inline constexpr FaultBits kOverTemperature = 1u << 6;
-inline constexpr FaultBits kHomingFailed = 1u << 8;
-inline constexpr FaultBits kToeJammed = 1u << 9;
-inline constexpr FaultBits kOutsideTravel = 1u << 10;
-inline constexpr FaultBits kPathUnreachable = 1u << 11;
-inline constexpr FaultBits kEmergencyStop = 1u << 12;
-inline constexpr FaultBits kInvalidWish = 1u << 13;
+inline constexpr FaultBits kOverload = 1u << 7;
+inline constexpr FaultBits kNotFollowing = 1u << 8;
+inline constexpr FaultBits kHomingFailed = 1u << 9;
+inline constexpr FaultBits kToeJammed = 1u << 10;
+inline constexpr FaultBits kToeStalled = 1u << 11;
+inline constexpr FaultBits kOutsideTravel = 1u << 12;
+inline constexpr FaultBits kPathUnreachable = 1u << 13;
+inline constexpr FaultBits kEmergencyStop = 1u << 14;
+inline constexpr FaultBits kInvalidWish = 1u << 15;
+inline constexpr FaultBits kOverrun = 1u << 16;
+inline constexpr FaultBits kStorage = 1u << 17;
+inline constexpr FaultBits kBrownOut = 1u << 18;
+inline constexpr FaultBits kWatchdogReset = 1u << 19;
 }  // namespace fault
 
 struct JointState {
-  float position_rad = 0.0f;
+  float position_rad = 0.0f;     // joint angle: reading less the joint's zero
+  float reading_rad = 0.0f;      // as the drive told it
   float velocity_rad_s = 0.0f;
   float torque_Nm = 0.0f;
   float temperature_C = 0.0f;

@@ -21,8 +21,9 @@ inline constexpr ValueName kOrderNames[] = {
     {0, "stop"}, {1, "ready"}, {2, "run"}, {3, "reset"}, {4, "release"}};
 
 inline constexpr ValueName kOrderResultNames[] = {
-    {0, "accepted"},      {1, "bad_crc"},      {2, "bad_counter"}, {3, "not_owner"},
-    {4, "unknown_order"}, {5, "out_of_range"}, {6, "wrong_mode"},  {7, "no_leg"}};
+    {0, "accepted"},      {1, "bad_crc"},          {2, "bad_counter"},     {3, "not_owner"},
+    {4, "unknown_order"}, {5, "out_of_range"},     {6, "wrong_mode"},      {7, "no_leg"},
+    {8, "not_connected"}, {9, "other_dictionary"}, {10, "not_calibrated"}, {11, "no_sync"}};
 
 /// Error byte of the AK family's reply.
 inline constexpr ValueName kDriveErrorNames[] = {{0, "none"},
@@ -34,23 +35,45 @@ inline constexpr ValueName kDriveErrorNames[] = {{0, "none"},
                                                  {6, "mosfet_over_temperature"},
                                                  {7, "motor_stalled"}};
 
-/// Bits of `faults` in the heartbeat. Ranges: 0-3 communication, 4-7 drives, 8-11 motion,
-/// 12-15 orders and the firmware itself.
+/// Bits of `faults` in the heartbeat. Ranges: 0-3 communication, 4-8 drives, 9-13 motion, 14-17
+/// orders and the firmware itself, 18-19 the board.
 inline constexpr ValueName kFaultBitNames[] = {
     {0, "sync_lost"},         {1, "drive_lost"},        {2, "bus_off"},
     {4, "drive_error"},       {5, "implausible_reply"}, {6, "over_temperature"},
-    {8, "homing_failed"},     {9, "toe_jammed"},        {10, "outside_travel"},
-    {11, "path_unreachable"}, {12, "emergency_stop"},   {13, "invalid_wish"}};
+    {7, "overload"},          {8, "not_following"},     {9, "homing_failed"},
+    {10, "toe_jammed"},       {11, "toe_stalled"},      {12, "outside_travel"},
+    {13, "path_unreachable"}, {14, "emergency_stop"},   {15, "invalid_wish"},
+    {16, "overrun"},          {17, "storage"},          {18, "brown_out"},
+    {19, "watchdog_reset"}};
 
-/// Bits of `active_limits` and of the three gate bytes.
+/// Bits of the three joints' limits in FootGate.
 inline constexpr ValueName kLimitBitNames[] = {{0, "torque"},  {1, "torque_rate"}, {2, "distance"},
                                                {3, "travel"},  {4, "velocity"},    {5, "gain"},
-                                               {6, "refused"}, {7, "latched"}};
+                                               {6, "refused"}, {7, "latched"},     {8, "overload"}};
+
+/// What a ServiceRequest asks for.
+inline constexpr ValueName kServiceNames[] = {{0, "read_parameter"},     {1, "store_parameters"},
+                                              {2, "default_parameters"}, {3, "calibrate_zero"},
+                                              {4, "read_status"},        {5, "read_fault_log"},
+                                              {6, "erase_fault_log"},    {7, "write_parameter"}};
+
+inline constexpr ValueName kServiceResultNames[] = {
+    {0, "done"},          {1, "bad_counter"},   {2, "not_owner"},   {3, "unknown_service"},
+    {4, "no_such_index"}, {5, "out_of_range"},  {6, "wrong_mode"},  {7, "flash_failed"},
+    {8, "busy"},          {9, "nothing_there"}, {10, "no_storage"}, {11, "not_connected"}};
+
+/// `index` of the service read_status.
+inline constexpr ValueName kStatusNames[] = {{0, "parameter_count"}, {1, "parameter_table_hash"},
+                                             {2, "stored_sequence"}, {3, "load_result"},
+                                             {4, "log_state"},       {5, "log_used"},
+                                             {6, "log_capacity"},    {7, "log_lost"},
+                                             {8, "reset_cause"},     {9, "words_per_record"}};
 
 // ---- signals ------------------------------------------------------------------------------------
 
 inline constexpr Signal kEmergencyStopSignals[] = {
-    number("source", 0, 8, "Who pressed; the stop acts on the identifier alone, whatever follows")};
+    number("source", 0, 8, "Who pressed; the stop acts on the identifier alone, whatever follows"),
+    number("counter", 8, 8, "Of the button's frames"), number("crc", 16, 8, "CRC-8")};
 
 inline constexpr Signal kSyncSignals[] = {
     number("tick", 0, 32, "Number of the control tick; one millisecond of control time each")};
@@ -99,11 +122,41 @@ inline constexpr Signal kOrderAcknowledgeSignals[] = {
     number("reserved", 48, 8, "0"),
     number("crc", 56, 8, "CRC-8")};
 
+inline constexpr Signal kSupervisorConnectSignals[] = {
+    number("supervisor_id", 0, 8, "Who connects, 1 to 255"),
+    number("protocol_hash", 8, 32, "Hash of the supervisor's dictionary; another one is refused"),
+    number("counter", 40, 8, "Echoed in the acknowledge; free"), number("reserved", 48, 8, "0"),
+    number("crc", 56, 8, "CRC-8")};
+
+inline constexpr Signal kParameterWriteSignals[] = {
+    number("supervisor_id", 0, 8, "Who writes; must own the foot, or nobody may"),
+    number("index", 8, 8, "Place in the parameter table"),
+    number("value", 16, 32, "IEEE 754 binary32"),
+    number("counter", 48, 8, "Must be the expected one, as of an order"),
+    number("crc", 56, 8, "CRC-8")};
+
+inline constexpr Signal kServiceRequestSignals[] = {
+    number("supervisor_id", 0, 8, "Who asks, 1 to 255"),
+    number("service", 8, 8, "What for", kServiceNames),
+    number("index", 16, 8, "Parameter, joint, status or record"),
+    number("offset", 24, 16, "Word of the record"),
+    number("reserved", 40, 8, "0"),
+    number("counter", 48, 8, "Expected one for what changes something; else free, echoed"),
+    number("crc", 56, 8, "CRC-8")};
+
+inline constexpr Signal kServiceAnswerSignals[] = {
+    number("service", 0, 4, "What was asked for", kServiceNames),
+    number("result", 4, 4, "What became of it", kServiceResultNames),
+    number("index", 8, 8, "Of the request"),
+    number("counter", 16, 8, "Of the request"),
+    number("value", 24, 32, "Answer; where the result is bad_counter, the expected one"),
+    number("crc", 56, 8, "CRC-8")};
+
 inline constexpr Signal kHeartbeatSignals[] = {
-    number("mode", 0, 8, "Mode", kModeNames),
-    number("faults", 8, 16, "OR of all latched faults, a bit each (kFaultBitNames)"),
-    number("active_limits", 24, 8, "OR of the limits clipping now (kLimitBitNames)"),
-    number("protocol_hash", 32, 32, "Hash of this dictionary; another one: refuse to talk")};
+    number("mode", 0, 4, "Mode", kModeNames), number("counter", 4, 4, "Of heartbeats"),
+    number("faults", 8, 24, "OR of all latched faults, a bit each (kFaultBitNames)"),
+    number("protocol_hash", 32, 24, "Low 24 bits of this dictionary's hash; others: do not talk"),
+    number("crc", 56, 8, "CRC-8")};
 
 inline constexpr Signal kFootToeSignals[] = {
     stepped("commanded_rad", 0, 16, 1e-4f, -3.0f, "rad", "Opening angle ordered now"),
@@ -126,15 +179,31 @@ inline constexpr Signal kFootGroundSignals[] = {
     number("contact", 56, 8, "1 while the foot touches")};
 
 inline constexpr Signal kFootGateSignals[] = {
-    number("interventions", 0, 32, "Joint commands changed or refused by the gate since start"),
-    number("toe_limits", 32, 8, "Why, now (kLimitBitNames)"),
-    number("hip_limits", 40, 8, "Why, now (kLimitBitNames)"),
-    number("knee_limits", 48, 8, "Why, now (kLimitBitNames)"), number("reserved", 56, 8, "0")};
+    number("interventions", 0, 28, "Joint commands changed or refused by the gate since start"),
+    number("toe_limits", 28, 12, "Why, now (kLimitBitNames)"),
+    number("hip_limits", 40, 12, "Why, now (kLimitBitNames)"),
+    number("knee_limits", 52, 12, "Why, now (kLimitBitNames)")};
 
 inline constexpr Signal kFootCountersSignals[] = {
     number("ticks", 0, 32, "Control ticks since start"),
-    number("bad_frames", 32, 16, "Unknown, short, long or malformed frames, modulo 65536"),
-    number("missed_ticks", 48, 16, "SYNC numbers that never came, modulo 65536")};
+    number("missed_ticks", 32, 16, "SYNC numbers that never came, modulo 65536"),
+    number("stale_syncs", 48, 16, "Repeated or older SYNC numbers, modulo 65536")};
+
+inline constexpr Signal kFootLoadSignals[] = {
+    stepped("toe_heat_ratio", 0, 8, 0.005f, 0.0f, "", "Winding's heat over what it bears for ever"),
+    stepped("hip_heat_ratio", 8, 8, 0.005f, 0.0f, "", "As toe_heat_ratio"),
+    stepped("knee_heat_ratio", 16, 8, 0.005f, 0.0f, "", "As toe_heat_ratio"),
+    stepped("slip_m", 24, 16, 1e-4f, -3.2768f, "m",
+            "Estimate: the sole's way back since touch-down"),
+    stepped("slip_ratio", 40, 8, 0.01f, -1.28f, "", "Estimate: 1 - body speed / sole speed"),
+    stepped("supply_V", 48, 8, 0.25f, 0.0f, "V", "Supply of board and drives; 0 not measured"),
+    number("overruns", 56, 8, "Ticks that took longer than a tick, modulo 256")};
+
+inline constexpr Signal kFootFramesSignals[] = {
+    number("unknown", 0, 16, "Identifier not ours, or on the wrong bus, modulo 65536"),
+    number("malformed", 16, 16, "Short, long, extended, remote, FD, error, modulo 65536"),
+    number("bad_crc", 32, 16, "Modulo 65536"),
+    number("refused", 48, 16, "Orders and services refused, replayed ones too, modulo 65536")};
 
 // ---- messages -----------------------------------------------------------------------------------
 
@@ -150,16 +219,22 @@ enum class Message : std::uint8_t {
   kKneeReply,
   kSupervisorOrder,
   kOrderAcknowledge,
+  kSupervisorConnect,
+  kParameterWrite,
+  kServiceRequest,
+  kServiceAnswer,
   kHeartbeat,
   kFootToe,
   kFootLeg,
   kFootGround,
   kFootGate,
   kFootCounters,
+  kFootLoad,
+  kFootFrames,
 };
 
 inline constexpr auto kMessages = std::to_array<MessageSpec>({
-    {"EmergencyStop", 0x001, 1, false, 0, 10, Node::kEstopButton, Node::kFoot, kBus0,
+    {"EmergencyStop", 0x001, 3, true, 0, 10, Node::kEstopButton, Node::kFoot, kBus0,
      kEmergencyStopSignals, "Torque off at once; highest priority; cleared by the reset order"},
     {"Sync", 0x010, 4, false, 1, 1, Node::kSyncMaster, Node::kFoot, kBus0 | kBus1, kSyncSignals,
      "Runs one control tick"},
@@ -179,8 +254,16 @@ inline constexpr auto kMessages = std::to_array<MessageSpec>({
      kSupervisorOrderSignals, "Mode, toe angle and gait; owned by one supervisor at a time"},
     {"OrderAcknowledge", 0x041, 8, true, 0, 10, Node::kFoot, Node::kSupervisor, kBus0,
      kOrderAcknowledgeSignals, "Answers every order frame"},
-    {"Heartbeat", 0x050, 8, false, 100, 10, Node::kFoot, Node::kSupervisor, kBus0,
-     kHeartbeatSignals, "At 10 Hz and on change"},
+    {"SupervisorConnect", 0x042, 8, true, 0, 10, Node::kSupervisor, Node::kFoot, kBus0,
+     kSupervisorConnectSignals, "Before the first order; answered by OrderAcknowledge"},
+    {"ParameterWrite", 0x043, 8, true, 0, 10, Node::kSupervisor, Node::kFoot, kBus0,
+     kParameterWriteSignals, "In mode off only; answered by ServiceAnswer"},
+    {"ServiceRequest", 0x044, 8, true, 0, 10, Node::kSupervisor, Node::kFoot, kBus0,
+     kServiceRequestSignals, "Parameters, calibration, fault log; answered by ServiceAnswer"},
+    {"ServiceAnswer", 0x045, 8, true, 0, 10, Node::kFoot, Node::kSupervisor, kBus0,
+     kServiceAnswerSignals, "Answers every ServiceRequest and ParameterWrite"},
+    {"Heartbeat", 0x050, 8, true, 100, 10, Node::kFoot, Node::kSupervisor, kBus0, kHeartbeatSignals,
+     "At 10 Hz and on change"},
     {"FootToe", 0x060, 8, false, 10, 10, Node::kFoot, Node::kSupervisor, kBus0, kFootToeSignals,
      "Toe opening"},
     {"FootLeg", 0x061, 8, false, 10, 10, Node::kFoot, Node::kSupervisor, kBus0, kFootLegSignals,
@@ -191,6 +274,10 @@ inline constexpr auto kMessages = std::to_array<MessageSpec>({
      "What the torque gate changed"},
     {"FootCounters", 0x064, 8, false, 100, 100, Node::kFoot, Node::kSupervisor, kBus0,
      kFootCountersSignals, "Counters of the control loop"},
+    {"FootLoad", 0x065, 8, false, 10, 10, Node::kFoot, Node::kSupervisor, kBus0, kFootLoadSignals,
+     "Heat of the windings, slip, supply"},
+    {"FootFrames", 0x066, 8, false, 100, 100, Node::kFoot, Node::kSupervisor, kBus0,
+     kFootFramesSignals, "Frames that were not acted upon"},
 });
 
 constexpr const MessageSpec& spec(Message message) {

@@ -39,13 +39,62 @@ enum class OrderResult : std::uint8_t {
   kOutOfRange,
   kWrongMode,
   kNoLeg,
+  kNotConnected,
+  kOtherDictionary,
+  kNotCalibrated,
+  kNoSync,
+};
+
+/// Names as kServiceNames.
+enum class Service : std::uint8_t {
+  kReadParameter = 0,
+  kStoreParameters,
+  kDefaultParameters,
+  kCalibrateZero,
+  kReadStatus,
+  kReadFaultLog,
+  kEraseFaultLog,
+  kWriteParameter,  // only in answers: the request is a message of its own
+};
+
+/// Names as kServiceResultNames.
+enum class ServiceResult : std::uint8_t {
+  kDone = 0,
+  kBadCounter,
+  kNotOwner,
+  kUnknownService,
+  kNoSuchIndex,
+  kOutOfRange,
+  kWrongMode,
+  kFlashFailed,
+  kBusy,
+  kNothingThere,
+  kNoStorage,
+  kNotConnected,
+};
+
+/// Names as kStatusNames.
+enum class Status : std::uint8_t {
+  kParameterCount = 0,
+  kParameterTableHash,
+  kStoredSequence,
+  kLoadResult,
+  kLogState,
+  kLogUsed,
+  kLogCapacity,
+  kLogLost,
+  kResetCause,
+  kWordsPerRecord,
 };
 
 struct EmergencyStop {
   std::uint8_t source = 0;
+  std::uint8_t counter = 0;
 
   static constexpr Message kMessage = Message::kEmergencyStop;
-  static constexpr auto fields() { return std::tuple{&EmergencyStop::source}; }
+  static constexpr auto fields() {
+    return std::tuple{&EmergencyStop::source, &EmergencyStop::counter};
+  }
 };
 
 struct Sync {
@@ -118,15 +167,71 @@ struct OrderAcknowledge {
   }
 };
 
+struct SupervisorConnect {
+  std::uint8_t supervisor_id = 0;
+  std::uint32_t protocol_hash = 0;
+  std::uint8_t counter = 0;
+  std::uint8_t reserved = 0;
+
+  static constexpr Message kMessage = Message::kSupervisorConnect;
+  static constexpr auto fields() {
+    return std::tuple{&SupervisorConnect::supervisor_id, &SupervisorConnect::protocol_hash,
+                      &SupervisorConnect::counter, &SupervisorConnect::reserved};
+  }
+};
+
+struct ParameterWrite {
+  std::uint8_t supervisor_id = 0;
+  std::uint8_t index = 0;
+  std::uint32_t value = 0;  // bits of a binary32
+  std::uint8_t counter = 0;
+
+  static constexpr Message kMessage = Message::kParameterWrite;
+  static constexpr auto fields() {
+    return std::tuple{&ParameterWrite::supervisor_id, &ParameterWrite::index,
+                      &ParameterWrite::value, &ParameterWrite::counter};
+  }
+};
+
+struct ServiceRequest {
+  std::uint8_t supervisor_id = 0;
+  Service service = Service::kReadParameter;
+  std::uint8_t index = 0;
+  std::uint16_t offset = 0;
+  std::uint8_t reserved = 0;
+  std::uint8_t counter = 0;
+
+  static constexpr Message kMessage = Message::kServiceRequest;
+  static constexpr auto fields() {
+    return std::tuple{&ServiceRequest::supervisor_id, &ServiceRequest::service,
+                      &ServiceRequest::index,         &ServiceRequest::offset,
+                      &ServiceRequest::reserved,      &ServiceRequest::counter};
+  }
+};
+
+struct ServiceAnswer {
+  Service service = Service::kReadParameter;
+  ServiceResult result = ServiceResult::kDone;
+  std::uint8_t index = 0;
+  std::uint8_t counter = 0;
+  std::uint32_t value = 0;
+
+  static constexpr Message kMessage = Message::kServiceAnswer;
+  static constexpr auto fields() {
+    return std::tuple{&ServiceAnswer::service, &ServiceAnswer::result, &ServiceAnswer::index,
+                      &ServiceAnswer::counter, &ServiceAnswer::value};
+  }
+};
+
 struct Heartbeat {
   Mode mode = Mode::kOff;
-  std::uint16_t faults = 0;        // bits: kFaultBitNames
-  std::uint8_t active_limits = 0;  // bits: kLimitBitNames
-  std::uint32_t protocol_hash = 0;
+  std::uint8_t counter = 0;         // 4 bits
+  std::uint32_t faults = 0;         // bits: kFaultBitNames
+  std::uint32_t protocol_hash = 0;  // low 24 bits
 
   static constexpr Message kMessage = Message::kHeartbeat;
   static constexpr auto fields() {
-    return std::tuple{&Heartbeat::mode, &Heartbeat::faults, &Heartbeat::active_limits,
+    return std::tuple{&Heartbeat::mode, &Heartbeat::counter, &Heartbeat::faults,
                       &Heartbeat::protocol_hash};
   }
 };
@@ -173,27 +278,58 @@ struct FootGround {
 };
 
 struct FootGate {
-  std::uint32_t interventions = 0;
-  std::uint8_t toe_limits = 0;
-  std::uint8_t hip_limits = 0;
-  std::uint8_t knee_limits = 0;
-  std::uint8_t reserved = 0;
+  std::uint32_t interventions = 0;  // 28 bits
+  std::uint16_t toe_limits = 0;     // bits: kLimitBitNames
+  std::uint16_t hip_limits = 0;
+  std::uint16_t knee_limits = 0;
 
   static constexpr Message kMessage = Message::kFootGate;
   static constexpr auto fields() {
     return std::tuple{&FootGate::interventions, &FootGate::toe_limits, &FootGate::hip_limits,
-                      &FootGate::knee_limits, &FootGate::reserved};
+                      &FootGate::knee_limits};
   }
 };
 
 struct FootCounters {
   std::uint32_t ticks = 0;
-  std::uint16_t bad_frames = 0;
   std::uint16_t missed_ticks = 0;
+  std::uint16_t stale_syncs = 0;
 
   static constexpr Message kMessage = Message::kFootCounters;
   static constexpr auto fields() {
-    return std::tuple{&FootCounters::ticks, &FootCounters::bad_frames, &FootCounters::missed_ticks};
+    return std::tuple{&FootCounters::ticks, &FootCounters::missed_ticks,
+                      &FootCounters::stale_syncs};
+  }
+};
+
+struct FootLoad {
+  float toe_heat_ratio = 0.0f;
+  float hip_heat_ratio = 0.0f;
+  float knee_heat_ratio = 0.0f;
+  float slip_m = 0.0f;
+  float slip_ratio = 0.0f;
+  float supply_V = 0.0f;
+  std::uint8_t overruns = 0;
+
+  static constexpr Message kMessage = Message::kFootLoad;
+  static constexpr auto fields() {
+    return std::tuple{&FootLoad::toe_heat_ratio,  &FootLoad::hip_heat_ratio,
+                      &FootLoad::knee_heat_ratio, &FootLoad::slip_m,
+                      &FootLoad::slip_ratio,      &FootLoad::supply_V,
+                      &FootLoad::overruns};
+  }
+};
+
+struct FootFrames {
+  std::uint16_t unknown = 0;
+  std::uint16_t malformed = 0;
+  std::uint16_t bad_crc = 0;
+  std::uint16_t refused = 0;
+
+  static constexpr Message kMessage = Message::kFootFrames;
+  static constexpr auto fields() {
+    return std::tuple{&FootFrames::unknown, &FootFrames::malformed, &FootFrames::bad_crc,
+                      &FootFrames::refused};
   }
 };
 

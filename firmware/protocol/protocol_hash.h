@@ -53,4 +53,7 @@ constexpr std::uint32_t compute_protocol_hash() {
 
 inline constexpr std::uint32_t kProtocolHash = compute_protocol_hash();
 
+/// As much of it as a heartbeat has room for.
+inline constexpr std::uint32_t kHeartbeatHash = kProtocolHash & 0xFF'FFFFu;
+
 }  // namespace hoof::firmware::protocol

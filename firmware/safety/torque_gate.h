@@ -9,7 +9,7 @@
 namespace hoof::firmware::safety {
 
 /// Why a joint's command is not what was wished; one bit each.
-using LimitBits = std::uint8_t;
+using LimitBits = std::uint16_t;  // twelve at most
 namespace limit {
 inline constexpr LimitBits kTorque = 1u << 0;
 inline constexpr LimitBits kTorqueRate = 1u << 1;
@@ -19,6 +19,8 @@ inline constexpr LimitBits kVelocity = 1u << 4;
 inline constexpr LimitBits kGain = 1u << 5;
 inline constexpr LimitBits kRefused = 1u << 6;  // not on the allow-list of the mode
 inline constexpr LimitBits kLatched = 1u << 7;  // replaced by damping after a fault
+inline constexpr LimitBits kOverload = 1u
+                                       << 8;  // ceiling lowered to what the winding bears for ever
 }  // namespace limit
 
 struct Verdict {

@@ -90,7 +90,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   ByteSource bytes({data, size});
   const CanFrame frame = frame_from(bytes);
   try_messages<EmergencyStop, Sync, SupervisorOrder, OrderAcknowledge, Heartbeat, FootToe, FootLeg,
-               FootGround, FootGate, FootCounters>(frame);
+               FootGround, FootGate, FootCounters, FootLoad, FootFrames, SupervisorConnect,
+               ParameterWrite, ServiceRequest, ServiceAnswer>(frame);
   for (const Drive drive : kDrives) try_drive(drive, frame);
   return 0;
 }

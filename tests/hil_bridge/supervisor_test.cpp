@@ -57,7 +57,7 @@ struct Bench {
 
   static Heartbeat healthy() {
     Heartbeat heartbeat;
-    heartbeat.protocol_hash = kProtocolHash;
+    heartbeat.protocol_hash = kHeartbeatHash;
     return heartbeat;
   }
 };
@@ -171,7 +171,7 @@ TEST_CASE("a firmware of another dictionary gets no orders") {
   CHECK_FALSE(bench.supervisor.heartbeat());
   CHECK(bench.supervisor.trouble() ==
         "the firmware speaks another dictionary: its protocol hash is " +
-            std::to_string(foreign.protocol_hash) + ", ours " + std::to_string(kProtocolHash));
+            std::to_string(foreign.protocol_hash) + ", ours " + std::to_string(kHeartbeatHash));
   CHECK(bench.run(100).empty());
 }
 

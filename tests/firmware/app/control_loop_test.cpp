@@ -86,7 +86,7 @@ TEST_CASE("Heartbeat: ten a second, at once on change, with mode, faults and pro
   LoopBench bench;
   bench.run(1000);
   CHECK(bench.heartbeats.size() == Approx(10).margin(1));
-  CHECK(bench.heartbeats.back().protocol_hash == protocol::kProtocolHash);
+  CHECK(bench.heartbeats.back().protocol_hash == protocol::kHeartbeatHash);
   const std::size_t before = bench.heartbeats.size();
   bench.order(Order::kReady, 0.1f);
   bench.run(12);

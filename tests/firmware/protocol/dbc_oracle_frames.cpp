@@ -134,12 +134,18 @@ int main(int argc, char** argv) {
   for (const Drive drive : kDrives) printer.add_drive(drive);
   printer.add<SupervisorOrder>();
   printer.add<OrderAcknowledge>();
+  printer.add<SupervisorConnect>();
+  printer.add<ParameterWrite>();
+  printer.add<ServiceRequest>();
+  printer.add<ServiceAnswer>();
   printer.add<Heartbeat>();
   printer.add<FootToe>();
   printer.add<FootLeg>();
   printer.add<FootGround>();
   printer.add<FootGate>();
   printer.add<FootCounters>();
+  printer.add<FootLoad>();
+  printer.add<FootFrames>();
 
   std::ostringstream dbc;
   write_dbc(dbc);
