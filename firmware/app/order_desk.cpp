@@ -19,6 +19,8 @@ OrderResult result_of(Acceptance acceptance) {
       return OrderResult::kWrongMode;
     case Acceptance::kNoLeg:
       return OrderResult::kNoLeg;
+    case Acceptance::kNotCalibrated:
+      return OrderResult::kNotCalibrated;
   }
   return OrderResult::kWrongMode;
 }

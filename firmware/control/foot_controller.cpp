@@ -13,14 +13,29 @@ LegAngles positions(const PerJoint<JointState>& joints) {
 
 }  // namespace
 
+FootController::Parts::Parts(const Settings& settings, float period_s)
+    : homing(settings.homing, period_s),
+      toe(settings.toe, period_s),
+      leg(settings, period_s),
+      contact(settings.contact, leg.kinematics(), leg.dynamics()),
+      adaptive(settings.adaptive, settings.toe.largest_angle_rad) {}
+
 FootController::FootController(const Settings& settings, JointPresence presence, float period_s)
     : settings_(settings),
       presence_(presence),
       period_s_(period_s),
-      homing_(settings.homing, period_s),
-      toe_(settings.toe, period_s),
-      leg_(settings, period_s),
-      contact_(settings.contact, leg_.kinematics(), leg_.dynamics()) {}
+      parts_(std::in_place, settings, period_s) {}
+
+bool FootController::configure(const Settings& settings, JointPresence presence) {
+  if (mode_ != Mode::kOff) return false;
+  const bool same_zero = settings.homing == settings_.homing && presence.toe == presence_.toe;
+  homed_ = homed_ && same_zero;
+  settings_ = settings;
+  presence_ = presence;
+  parts_.emplace(settings_, period_s_);
+  wish_all(DriveAction::kExit);
+  return true;
+}
 
 // ---- orders ---------------------------------------------------------------------------------
 
@@ -28,7 +43,7 @@ Acceptance FootController::order_ready(float toe_angle_rad) {
   const Acceptance acceptance = accept(toe_angle_rad, 0.0f);
   if (acceptance != Acceptance::kAccepted) return acceptance;
   run_ordered_ = false;
-  leg_.set_frequency(0.0f);
+  parts_->leg.set_frequency(0.0f);
   return acceptance;
 }
 
@@ -38,7 +53,7 @@ Acceptance FootController::order_run(float toe_angle_rad, float frequency_Hz) {
   const Acceptance acceptance = accept(toe_angle_rad, frequency_Hz);
   if (acceptance != Acceptance::kAccepted) return acceptance;
   run_ordered_ = true;
-  if (mode_ == Mode::kRunning) leg_.set_frequency(frequency_Hz);
+  if (mode_ == Mode::kRunning) parts_->leg.set_frequency(frequency_Hz);
   return acceptance;
 }
 
@@ -47,11 +62,26 @@ Acceptance FootController::accept(float toe_angle_rad, float frequency_Hz) {
                         frequency_Hz >= 0.0f && frequency_Hz <= settings_.path.largest_frequency_Hz;
   if (!in_range) return Acceptance::kOutOfRange;
   if (mode_ != Mode::kOff && !active()) return Acceptance::kWrongMode;
+  if (!calibrated()) return Acceptance::kNotCalibrated;
+  // A gait that only changes its frequency keeps what its toes have adapted to.
+  const bool gait_goes_on = mode_ == Mode::kRunning && run_ordered_ && frequency_Hz > 0.0f;
+  const bool same_toes = gait_goes_on && toe_angle_rad == toe_angle_rad_;
   toe_angle_rad_ = toe_angle_rad;
   frequency_Hz_ = frequency_Hz;
   if (mode_ == Mode::kOff) enter(Mode::kHoming);
-  if (mode_ != Mode::kHoming) toe_.move_to(toe_angle_rad);
+  if (mode_ != Mode::kHoming && !same_toes) order_toe(toe_angle_rad);
   return Acceptance::kAccepted;
+}
+
+bool FootController::calibrated() const {
+  const bool toe =
+      !presence_.toe || !settings_.homing.is_absolute() || settings_.homing.is_calibrated();
+  return toe && (!presence_.leg || settings_.leg.is_calibrated());
+}
+
+void FootController::order_toe(float toe_angle_rad) {
+  parts_->toe.move_to(toe_angle_rad);
+  parts_->adaptive.start(toe_angle_rad);
 }
 
 Acceptance FootController::order_stop() {
@@ -99,6 +129,9 @@ void FootController::enter(Mode mode) {
 
 const Wish& FootController::step(const States& joints) {
   new_toe_zero_rad_.reset();
+  if (presence_.toe && settings_.homing.is_absolute() && settings_.homing.is_calibrated()) {
+    homed_ = homed_ || joints[index(Joint::kToe)].received;
+  }
   wish_all(DriveAction::kExit);
   mode_s_ += period_s_;
   const Mode mode_before = mode_;
@@ -143,14 +176,14 @@ void FootController::enter_drives(const States& joints) {
   }
   if (mode_s_ < kEnterTime_s || !all_answered) return;
   drives_entered_ = true;
-  homing_.start();
-  leg_.start(positions(joints));
-  contact_.reset();
+  parts_->homing.start();
+  parts_->leg.start(positions(joints));
+  parts_->contact.reset();
 }
 
 void FootController::seek_toe_zero(const States& joints) {
   JointCommand seek;
-  switch (homing_.step(joints[index(Joint::kToe)], seek)) {
+  switch (parts_->homing.step(joints[index(Joint::kToe)], seek)) {
     case HomingResult::kSeeking:
       return command(Joint::kToe, seek);
     case HomingResult::kFailed:
@@ -159,15 +192,15 @@ void FootController::seek_toe_zero(const States& joints) {
       break;
   }
   homed_ = true;
-  new_toe_zero_rad_ = homing_.zero_rad();
+  new_toe_zero_rad_ = parts_->homing.zero_rad();
   command(Joint::kToe, {.kd_Nm_s_rad = settings_.homing.kd_Nm_s_rad});
 }
 
 void FootController::become_ready(const States& joints) {
   const JointState& toe = joints[index(Joint::kToe)];
-  toe_.start(toe.position_rad);
-  toe_.move_to(toe_angle_rad_);
-  leg_.go_to_path();
+  parts_->toe.start(toe.position_rad);
+  order_toe(toe_angle_rad_);
+  parts_->leg.go_to_path();
   enter(Mode::kReady);
   step_ready(joints);
 }
@@ -175,16 +208,17 @@ void FootController::become_ready(const States& joints) {
 void FootController::step_ready(const States& joints) {
   command_toe(joints);
   command_leg(joints);
-  const bool may_run = run_ordered_ && leg_.on_path() && !toe_.moving();
+  const bool may_run = run_ordered_ && parts_->leg.on_path() && !parts_->toe.moving();
   if (!may_run || mode_ != Mode::kReady) return;
-  leg_.set_frequency(frequency_Hz_);
+  parts_->leg.set_frequency(frequency_Hz_);
   enter(Mode::kRunning);
 }
 
 void FootController::step_running(const States& joints) {
   command_toe(joints);
   command_leg(joints);
-  if (mode_ == Mode::kRunning && !run_ordered_ && leg_.at_rest()) enter(Mode::kReady);
+  if (mode_ == Mode::kRunning) adapt_toe();
+  if (mode_ == Mode::kRunning && !run_ordered_ && parts_->leg.at_rest()) enter(Mode::kReady);
 }
 
 void FootController::step_damped_stop(const States& joints) {
@@ -207,24 +241,41 @@ void FootController::step_damped_stop(const States& joints) {
 void FootController::command_toe(const States& joints) {
   if (!presence_.toe) return;
   const JointState& toe = joints[index(Joint::kToe)];
-  command(Joint::kToe, toe_.step(toe));
-  if (toe_.jammed()) trip(fault::kToeJammed);
+  command(Joint::kToe, parts_->toe.step(toe));
+  if (parts_->toe.jammed()) trip(fault::kToeJammed);
+  if (parts_->toe.stalled()) trip(fault::kToeStalled);
 }
 
 void FootController::command_leg(const States& joints) {
   if (!presence_.leg) return;
-  const LegCommand leg = leg_.step();
+  const LegCommand leg = parts_->leg.step();
   command(Joint::kHip, leg.hip);
   command(Joint::kKnee, leg.knee);
   feel_ground(joints);
-  if (!leg_.reachable()) trip(fault::kPathUnreachable);
+  if (!parts_->leg.reachable()) trip(fault::kPathUnreachable);
 }
 
 void FootController::feel_ground(const States& joints) {
   const JointState& hip = joints[index(Joint::kHip)];
   const JointState& knee = joints[index(Joint::kKnee)];
-  contact_.update(positions(joints), {hip.velocity_rad_s, knee.velocity_rad_s},
-                  leg_.acceleration_rad_s2(), {hip.torque_Nm, knee.torque_Nm}, period_s_);
+  parts_->contact.update(positions(joints), {hip.velocity_rad_s, knee.velocity_rad_s},
+                         parts_->leg.acceleration_rad_s2(), {hip.torque_Nm, knee.torque_Nm},
+                         period_s_);
+}
+
+/// A step that meets the sand early, on a heap, ends at once.
+void FootController::adapt_toe() {
+  AdaptiveOpening& adaptive = parts_->adaptive;
+  ToeOpening& toe = parts_->toe;
+  if (!adaptive.enabled() || !presence_.toe || !presence_.leg || !run_ordered_) return;
+  const GroundEstimate& ground = parts_->contact.estimate();
+  if (ground.contact && adaptive.moved()) toe.halt();
+  const StancePath& path = parts_->leg.path();
+  const bool may_move =
+      !toe.moving() && path.above_sand_for(toe.longest_move_s(settings_.adaptive.largest_step_rad));
+  const std::optional<float> angle_rad =
+      adaptive.update(ground, path.below_sand(), may_move, toe.target_rad());
+  if (angle_rad) toe.move_to(*angle_rad);
 }
 
 void FootController::command(Joint joint, const JointCommand& command) {

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "firmware/control/adaptive_opening.h"
 #include "firmware/control/ground_contact.h"
 #include "firmware/control/homing.h"
 #include "firmware/control/leg_motion.h"
@@ -12,7 +13,13 @@
 
 namespace hoof::firmware::control {
 
-enum class Acceptance : std::uint8_t { kAccepted = 0, kOutOfRange, kWrongMode, kNoLeg };
+enum class Acceptance : std::uint8_t {
+  kAccepted = 0,
+  kOutOfRange,
+  kWrongMode,
+  kNoLeg,
+  kNotCalibrated
+};
 
 /// Pure: no bus, no clock, no heap. Modes and their changes: firmware/README.md.
 class FootController {
@@ -20,7 +27,13 @@ class FootController {
   /// @param period_s length of a tick in control time
   FootController(const Settings& settings, JointPresence presence, float period_s = kTick_s);
 
+  /// New settings, as if constructed anew with them; only in mode off, where nothing moves. The
+  /// toe's zero stays known unless how it is found, or whether there is a toe, has changed.
+  /// @return false in any other mode, with nothing changed
+  bool configure(const Settings& settings, JointPresence presence);
+
   // ---- orders; each says whether it is taken and, if not, changes nothing --------------------
+  // What moves is refused as not calibrated where an absolute encoder in use has no zero.
 
   /// Home where needed, open the toes to the angle (per side), take the leg to the start of its
   /// path. While running: stops the gait where the foot then is.
@@ -48,10 +61,11 @@ class FootController {
 
   Mode mode() const { return mode_; }
   FaultBits faults() const { return faults_; }
+  /// The toe's zero is known: found at its stop, or told by a calibrated absolute encoder.
   bool homed() const { return homed_ || !presence_.toe; }
-  const ToeOpening& toe() const { return toe_; }
-  const LegMotion& leg() const { return leg_; }
-  const GroundEstimate& ground() const { return contact_.estimate(); }
+  const ToeOpening& toe() const { return parts_->toe; }
+  const LegMotion& leg() const { return parts_->leg; }
+  const GroundEstimate& ground() const { return parts_->contact.estimate(); }
   const Wish& wish() const { return wish_; }
   const JointPresence& presence() const { return presence_; }
   float hip_above_sand_m() const { return settings_.path.hip_above_sand_m; }
@@ -59,7 +73,20 @@ class FootController {
  private:
   using States = PerJoint<JointState>;
 
+  /// All that is made of the settings, and made anew with them.
+  struct Parts {
+    Homing homing;
+    ToeOpening toe;
+    LegMotion leg;
+    GroundContact contact;
+    AdaptiveOpening adaptive;
+
+    Parts(const Settings& settings, float period_s);
+  };
+
   Acceptance accept(float toe_angle_rad, float frequency_Hz);
+  bool calibrated() const;
+  void order_toe(float toe_angle_rad);
   void enter(Mode mode);
   bool active() const;
   void step_homing(const States& joints);
@@ -74,14 +101,12 @@ class FootController {
   void command(Joint joint, const JointCommand& command);
   void wish_all(DriveAction action);
   void feel_ground(const States& joints);
+  void adapt_toe();
 
   Settings settings_;
   JointPresence presence_;
   float period_s_;
-  Homing homing_;
-  ToeOpening toe_;
-  LegMotion leg_;
-  GroundContact contact_;
+  std::optional<Parts> parts_;  // always there; optional, for it can be made anew without a heap
 
   Mode mode_ = Mode::kOff;
   float mode_s_ = 0.0f;  // time in this mode

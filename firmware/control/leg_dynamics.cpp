@@ -12,7 +12,8 @@ LegDynamics::LegDynamics(const LegModelSettings& m)
                 (m.shank_mass_kg + m.foot_mass_kg) * m.thigh_m),
       moment_s_(m.shank_mass_kg * m.shank_centre_m + m.foot_mass_kg * m.foot_centre_m),
       rotor_(m.rotor_inertia_kg_m2),
-      friction_(m.friction_Nm) {}
+      friction_(m.friction_Nm),
+      viscous_(m.viscous_friction_Nm_s_rad) {}
 
 // With absolute angles h and s = h + k:
 //   T = A h'^2/2 + B s'^2/2 + C cos(s - h) h' s',   V = -g (m_h cos h + m_s cos s)
@@ -29,8 +30,8 @@ LegAngles LegDynamics::torque_Nm(LegAngles q, LegAngles v, LegAngles a) const {
                     kGravity_m_s2 * moment_h_ * h.sin;
   const float q_s = b_ * s_ddot + c_ * k.cos * a.hip_rad + c_ * k.sin * square(v.hip_rad) +
                     kGravity_m_s2 * moment_s_ * s.sin;
-  return {q_h + q_s + rotor_ * a.hip_rad + smooth_friction_Nm(friction_, v.hip_rad),
-          q_s + rotor_ * a.knee_rad + smooth_friction_Nm(friction_, v.knee_rad)};
+  return {q_h + q_s + rotor_ * a.hip_rad + smooth_friction_Nm(friction_, viscous_, v.hip_rad),
+          q_s + rotor_ * a.knee_rad + smooth_friction_Nm(friction_, viscous_, v.knee_rad)};
 }
 
 }  // namespace hoof::firmware::control

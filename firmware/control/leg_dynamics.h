@@ -23,12 +23,14 @@ class LegDynamics {
   float moment_s_;
   float rotor_;
   float friction_;
+  float viscous_;
 };
 
 /// Coulomb friction with the jump at zero speed smoothed over some 0.05 rad/s, so that noise of a
-/// speed near zero does not make torque: F v / (|v| + 0.05).
-inline float smooth_friction_Nm(float friction_Nm, float velocity_rad_s) {
-  return friction_Nm * velocity_rad_s / (absolute(velocity_rad_s) + 0.05f);
+/// speed near zero does not make torque, and viscous friction: F v / (|v| + 0.05) + b v.
+inline float smooth_friction_Nm(float friction_Nm, float viscous_Nm_s_rad, float velocity_rad_s) {
+  return friction_Nm * velocity_rad_s / (absolute(velocity_rad_s) + 0.05f) +
+         viscous_Nm_s_rad * velocity_rad_s;
 }
 
 }  // namespace hoof::firmware::control

@@ -27,6 +27,11 @@ LegJacobian LegKinematics::jacobian(LegAngles q) const {
   return {.x_h = -p.z, .x_k = l2_ * s.cos, .z_h = p.x, .z_k = l2_ * s.sin};
 }
 
+PlaneVector LegKinematics::foot_velocity_m_s(LegAngles q, LegAngles v) const {
+  const LegJacobian j = jacobian(q);
+  return {j.x_h * v.hip_rad + j.x_k * v.knee_rad, j.z_h * v.hip_rad + j.z_k * v.knee_rad};
+}
+
 /// det J = l1 l2 sin k. Near zero 1/det becomes det/(det^2 + d^2) (damped least squares), with d
 /// growing from zero at the threshold so that the inverse is continuous.
 float LegKinematics::damped_inverse_determinant(LegAngles q) const {

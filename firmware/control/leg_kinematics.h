@@ -50,6 +50,9 @@ class LegKinematics {
 
   LegJacobian jacobian(LegAngles q) const;
 
+  /// Speed of the sole point, J qdot.
+  PlaneVector foot_velocity_m_s(LegAngles q, LegAngles velocity_rad_s) const;
+
   /// Joint speeds for a speed of the sole point. Where |sin k| < 0.05 the inverse is damped, so
   /// that speeds stay bounded near the stretched leg instead of growing without end.
   LegAngles joint_velocity_rad_s(LegAngles q, PlaneVector velocity_m_s) const;

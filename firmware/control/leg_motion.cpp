@@ -15,6 +15,7 @@ LegMotion::LegMotion(const Settings& settings, float period_s)
     input_.set_limits(joint, settings_.speed_rad_s, settings_.acceleration_rad_s2,
                       settings_.jerk_rad_s3);
   }
+  generator_.set_work_per_update(kPlanningUnitsPerTick);
 }
 
 void LegMotion::start(LegAngles measured) {

@@ -63,8 +63,8 @@ inline constexpr FaultBits kWatchdogReset = 1u << 19;
 }  // namespace fault
 
 struct JointState {
-  float position_rad = 0.0f;     // joint angle: reading less the joint's zero
-  float reading_rad = 0.0f;      // as the drive told it
+  float position_rad = 0.0f;  // joint angle: reading less the joint's zero
+  float reading_rad = 0.0f;   // as the drive told it
   float velocity_rad_s = 0.0f;
   float torque_Nm = 0.0f;
   float temperature_C = 0.0f;

@@ -32,9 +32,10 @@ TEST_CASE("The closed stop is found from anywhere, with any zero of the drive") 
       plant.q_rad = drive_zero_rad + start_rad;
       int ticks = 0;
       REQUIRE(home(homing, plant, ticks) == HomingResult::kFound);
-      // The stop gives way by 1.2 Nm / 5000 Nm/rad.
-      CHECK(homing.zero_rad() == Approx(drive_zero_rad).margin(3e-4));
-      CHECK(ticks == Approx(start_rad / 0.5 * 1000.0 + 70.0).margin(60.0));
+      // The stop gives way by 1.2 Nm / 5000 Nm/rad, and by what friction keeps of the impact.
+      CHECK(homing.zero_rad() == Approx(drive_zero_rad).margin(3.5e-4));
+      // Damping alone against friction: 0.5 rad/s less (0.48 + 0.024 * 0.3) / 2.4.
+      CHECK(ticks == Approx(start_rad / 0.297 * 1000.0 + 70.0).margin(60.0));
     }
   }
 }
@@ -58,7 +59,7 @@ TEST_CASE("An angle at the stop other than zero is taken off") {
   plant.q_rad = 1.1;
   int ticks = 0;
   REQUIRE(home(homing, plant, ticks) == HomingResult::kFound);
-  CHECK(homing.zero_rad() == Approx(1.03).margin(3e-4));
+  CHECK(homing.zero_rad() == Approx(1.03).margin(3.5e-4));
 }
 
 TEST_CASE("Without a stop the search fails after its time") {

@@ -11,7 +11,8 @@ namespace hoof::firmware::control::test {
 
 struct JointPlant {
   double inertia_kg_m2 = 0.012;
-  double friction_Nm = 0.05;
+  double friction_Nm = 0.48;  // as the firmware's default toe drive
+  double viscous_Nm_s_rad = 0.024;
   double torque_limit_Nm = 24.0;
   double stop_rad = -1e9;  // closed end stop: stiff spring and damper below it
   double load_Nm = 0.0;
@@ -26,7 +27,7 @@ struct JointPlant {
       const double wished_Nm = c.kp_Nm_rad * (c.position_rad - q_rad) +
                                c.kd_Nm_s_rad * (c.velocity_rad_s - v_rad_s) + c.torque_Nm;
       motor_Nm = std::clamp(wished_Nm, -torque_limit_Nm, torque_limit_Nm);
-      double torque_Nm = motor_Nm + load_Nm;
+      double torque_Nm = motor_Nm + load_Nm - viscous_Nm_s_rad * v_rad_s;
       if (q_rad < stop_rad) torque_Nm += 5000.0 * (stop_rad - q_rad) - 5.0 * v_rad_s;
       move(torque_Nm, kStep_s);
     }

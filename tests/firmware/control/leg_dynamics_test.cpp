@@ -10,7 +10,7 @@ namespace {
 
 LegModelSettings frictionless() {
   LegModelSettings settings;
-  settings.friction_Nm = 0.0f;
+  settings.friction_Nm = settings.viscous_friction_Nm_s_rad = 0.0f;
   return settings;
 }
 
@@ -52,7 +52,7 @@ TEST_CASE("From rest a joint alone feels its own inertia and the rotor") {
   LegModelSettings m = frictionless();
   const LegDynamics leg(m);
   // Straight down, knee accelerated by 1: inertia of shank and foot about the knee, and the rotor.
-  const double shank = 0.0075 + 1.0 * 0.15 * 0.15 + 1.5 * 0.28 * 0.28 + 0.12;
+  const double shank = 0.0075 + 1.0 * 0.15 * 0.15 + 1.5 * 0.28 * 0.28 + m.rotor_inertia_kg_m2;
   CHECK(leg.torque_Nm({0, 0}, {}, {0, 1}).knee_rad == Approx(shank).epsilon(1e-5));
 }
 
@@ -79,8 +79,10 @@ TEST_CASE("The power of the torques is the change of energy, in any motion") {
 }
 
 TEST_CASE("Friction feed-forward is odd, smooth at zero and right at speed") {
-  CHECK(smooth_friction_Nm(2.0f, 0.0f) == 0.0f);
-  CHECK(smooth_friction_Nm(2.0f, 0.05f) == Approx(1.0f));
-  CHECK(smooth_friction_Nm(2.0f, 5.0f) == Approx(2.0f).epsilon(0.011));
-  CHECK(smooth_friction_Nm(2.0f, -5.0f) == -smooth_friction_Nm(2.0f, 5.0f));
+  CHECK(smooth_friction_Nm(2.0f, 0.0f, 0.0f) == 0.0f);
+  CHECK(smooth_friction_Nm(2.0f, 0.0f, 0.05f) == Approx(1.0f));
+  CHECK(smooth_friction_Nm(2.0f, 0.0f, 5.0f) == Approx(2.0f).epsilon(0.011));
+  CHECK(smooth_friction_Nm(2.0f, 0.0f, -5.0f) == -smooth_friction_Nm(2.0f, 0.0f, 5.0f));
+  CHECK(smooth_friction_Nm(0.0f, 0.5f, -3.0f) == -1.5f);
+  CHECK(smooth_friction_Nm(2.0f, 0.5f, 0.05f) == Approx(1.025f));
 }
