@@ -42,6 +42,7 @@ Parameters rig_parameters(const RunSettings& run) {
     p.control.homing.stop_angle_rad = float(run.foot.hinges.min_opening_rad);
     if (const auto& toe = run.drives[0]) {
       p.control.toe.friction_Nm = float(toe->coulomb_friction_Nm);
+      p.control.toe.viscous_friction_Nm_s_rad = float(toe->viscous_friction_Nm_s_rad);
     }
   }
   if (!run.firmware_leg()) return p;
@@ -59,6 +60,7 @@ Parameters rig_parameters(const RunSettings& run) {
   if (const auto& hip = run.drives[1]) {
     m.rotor_inertia_kg_m2 = float(hip->rotor_inertia_kg_m2);
     m.friction_Nm = float(hip->coulomb_friction_Nm);
+    m.viscous_friction_Nm_s_rad = float(hip->viscous_friction_Nm_s_rad);
   }
   auto& path = p.control.path;
   path.semi_x_m = float(run.traction.ellipse.half_length_m);
