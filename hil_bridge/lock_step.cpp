@@ -33,7 +33,7 @@ LockStep::LockStep(sim::Experiment& experiment, const firmware::app::Parameters&
     : experiment_(experiment),
       wires_(wires),
       master_{&wires.attach(0, "sync"), &wires.attach(1, "sync")},
-      firmware_({&wires.attach(0, "foot"), &wires.attach(1, "foot")}, clock_, parameters),
+      firmware_({&wires.attach(0, "foot"), &wires.attach(1, "foot")}, clock_, board_, parameters),
       supervisor_(wires.attach(0, "supervisor")),
       exchange_ns_(whole_exchange_ns(experiment.plant().settings().exchange_s)) {
   drives_.reserve(sim::kJointCount);  // nodes keep references, they must not move

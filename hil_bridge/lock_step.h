@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "firmware/app/control_loop.h"
+#include "hal/in_process/soft_board.h"
 #include "hal/stepped_clock.h"
 #include "hil_bridge/drive_node.h"
 #include "hil_bridge/supervisor.h"
@@ -48,6 +49,7 @@ class LockStep {
   sim::Experiment& experiment_;
   Wires& wires_;
   hal::SteppedClock clock_;
+  hal::SoftBoard board_;
   std::array<hal::CanBus*, kBusCount> master_{};
   firmware::app::ControlLoop firmware_;
   Supervisor supervisor_;

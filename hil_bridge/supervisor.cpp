@@ -43,7 +43,21 @@ void Supervisor::poll(std::int64_t now_ns) {
   // Faults are no reason to be silent: reset is an order, too.
   if (!order_ || accepted_ || !refusal_.empty() || !heartbeat_) return;
   // One frame at a time: two with the same counter would have the same answer.
-  if (!awaiting_ || now_ns - sent_ns_ >= kRepeat_ns) send(now_ns);
+  if (awaiting_ && now_ns - sent_ns_ < kRepeat_ns) return;
+  // A stop is anybody's, and does not wait to be introduced.
+  if (connected_ || order_->order == Order::kStop) {
+    send(now_ns);
+  } else {
+    send_connect(now_ns);
+  }
+}
+
+void Supervisor::send_connect(std::int64_t now_ns) {
+  const SupervisorConnect connect{id_, kProtocolHash, ++connect_counter_};
+  if (bus_.send(encode(connect)) != hal::SendResult::kQueued) return;
+  awaiting_ = true;
+  connecting_ = true;
+  sent_ns_ = now_ns;
 }
 
 void Supervisor::send(std::int64_t now_ns) {
@@ -51,6 +65,7 @@ void Supervisor::send(std::int64_t now_ns) {
   if (bus_.send(encode(*order_)) != hal::SendResult::kQueued) return;  // again at the next poll
   sent_ = true;
   awaiting_ = true;
+  connecting_ = false;
   sent_counter_ = counter_;
   sent_ns_ = now_ns;
 }
@@ -69,15 +84,29 @@ void Supervisor::take_acknowledge(const OrderAcknowledge& answer) {
   if (answer.supervisor_id != id_) return;
   counter_ = answer.expected_counter;
   mode_ = answer.mode;
+  if (connecting_) return take_connection(answer);
   if (answer.counter != sent_counter_) return;
   awaiting_ = false;
   if (!order_ || accepted_ || !sent_) return;
   if (answer.result == OrderResult::kAccepted) {
     accepted_ = true;
+  } else if (answer.result == OrderResult::kNotConnected) {
+    connected_ = false;  // it lapsed; the order goes out again behind a new one
   } else if (answer.result != OrderResult::kBadCounter) {  // that one goes out again, mended
     refusal_ = "the order '" + name_of(kOrderNames, std::uint32_t(order_->order)) +
                "' was refused: " + name_of(kOrderResultNames, std::uint32_t(answer.result)) +
                " (mode " + name_of(kModeNames, std::uint32_t(answer.mode)) + ")";
+  }
+}
+
+void Supervisor::take_connection(const OrderAcknowledge& answer) {
+  if (answer.counter != connect_counter_) return;
+  awaiting_ = false;
+  connecting_ = false;
+  connected_ = answer.result == OrderResult::kAccepted;
+  if (!connected_) {
+    refusal_ = "the firmware speaks another dictionary and refuses ours, whose protocol hash is " +
+               std::to_string(kProtocolHash);
   }
 }
 

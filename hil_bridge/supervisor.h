@@ -17,7 +17,8 @@ class Supervisor {
   /// @param id of this supervisor, 1 to 255
   explicit Supervisor(hal::CanBus& bus, std::uint8_t id = 1) : bus_(bus), id_(id) {}
 
-  /// Replaces the order in force: it is sent, and sent again until it is acknowledged.
+  /// Replaces the order in force: it is sent, and sent again until it is acknowledged. Where the
+  /// foot does not know this supervisor (any more), it connects first.
   void order(firmware::protocol::Order order, double toe_angle_rad = 0, double frequency_Hz = 0);
 
   /// Takes all waiting frames and sends what is due. Call it at least once per millisecond.
@@ -43,7 +44,9 @@ class Supervisor {
   void take(const hal::CanFrame& frame);
   void take_acknowledge(const firmware::protocol::OrderAcknowledge& answer);
   void take_heartbeat(const firmware::protocol::Heartbeat& heartbeat);
+  void take_connection(const firmware::protocol::OrderAcknowledge& answer);
   void send(std::int64_t now_ns);
+  void send_connect(std::int64_t now_ns);
 
   hal::CanBus& bus_;
   std::uint8_t id_;
@@ -52,7 +55,10 @@ class Supervisor {
   bool accepted_ = false;
   bool sent_ = false;      // the order in force, at least once
   bool awaiting_ = false;  // the answer to the frame sent last
+  bool connected_ = false;
+  bool connecting_ = false;  // the frame sent last was a connect
   std::uint8_t sent_counter_ = 0;
+  std::uint8_t connect_counter_ = 0;
   std::int64_t sent_ns_ = 0;
   std::optional<firmware::protocol::Heartbeat> heartbeat_;
   std::optional<firmware::protocol::FootToe> toe_;

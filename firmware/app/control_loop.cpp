@@ -1,6 +1,7 @@
 #include "firmware/app/control_loop.h"
 
 #include "firmware/app/dictionary_agreement.h"
+#include "firmware/app/telemetry_frames.h"
 #include "firmware/protocol/codec.h"
 #include "firmware/protocol/protocol_hash.h"
 
@@ -44,22 +45,46 @@ hal::CanFrame frame_for(protocol::Drive drive, const JointWish& wish, float zero
 
 }  // namespace
 
-ControlLoop::ControlLoop(Buses buses, const hal::Clock& clock, const Parameters& parameters)
+ControlLoop::ControlLoop(Buses buses, const hal::Clock& clock, hal::Board& board,
+                         const Parameters& parameters, Storage* storage)
     : buses_(buses),
       clock_(clock),
+      board_(board),
+      storage_(storage),
+      parameters_(parameters),
       inbox_(counters_),
-      controller_(parameters.control, parameters.presence()),
+      controller_(parameters.settings(), parameters.presence()),
       gate_(parameters.presence()),
-      orders_(controller_, gate_) {}
+      orders_(controller_, gate_, ownership_),
+      services_(parameters_, storage, ownership_, inbox_, board.reset_cause()) {
+  for (std::size_t i = 0; i < control::kJointCount; ++i) {
+    inbox_.set_zero(static_cast<Joint>(i), parameters_.zero_rad(static_cast<Joint>(i)));
+  }
+  examine_start();
+}
+
+/// What the last run left behind: a person should know before anything moves.
+void ControlLoop::examine_start() {
+  FaultBits found = 0;
+  if (board_.reset_cause() == hal::ResetCause::kWatchdog) found |= fault::kWatchdogReset;
+  if (board_.reset_cause() == hal::ResetCause::kBrownOut) found |= fault::kBrownOut;
+  if (storage_ != nullptr && storage_->doubtful()) found |= fault::kStorage;
+  trip(found);
+}
 
 void ControlLoop::poll() {
   const std::int64_t now_ns = clock_.now_ns();
+  mode_before_ = controller_.mode();
   watch_sync(now_ns);
+  watch_board(now_ns);
   read(now_ns);
   answer_orders(now_ns);
+  answer_services(now_ns);
   run_due_tick(now_ns);
+  send_exit_again();
   send_heartbeat_if_due(now_ns);
   outbox_.flush(*buses_[0]);
+  keep_fault_log(now_ns);
 }
 
 /// Before anything is read: frames that waited while this loop was not called must not hide that it
@@ -75,6 +100,13 @@ void ControlLoop::watch_sync(std::int64_t now_ns) {
   }
 }
 
+/// The button's line and the supply, at every poll.
+void ControlLoop::watch_board(std::int64_t) {
+  const bool pressed = board_.emergency_stop_pressed();
+  if (pressed && !button_pressed_) emergency_stop();
+  button_pressed_ = pressed;
+}
+
 /// Both buses are emptied before a tick runs: the replies on bus 1 belong to the SYNC on bus 0.
 void ControlLoop::read(std::int64_t now_ns) {
   inbox_.drain(*buses_[1], 1, now_ns);
@@ -87,10 +119,40 @@ void ControlLoop::read(std::int64_t now_ns) {
 }
 
 void ControlLoop::answer_orders(std::int64_t now_ns) {
-  while (const std::optional<ReceivedOrder> received = inbox_.take_order()) {
-    const protocol::OrderAcknowledge answer = orders_.handle(*received, now_ns);
+  const auto send = [this](const protocol::OrderAcknowledge& answer) {
     if (answer.result != protocol::OrderResult::kAccepted) ++counters_.refused_orders;
     queue(encode(answer));
+  };
+  const OrderConditions conditions{.synced = synced_, .emergency_stop_pressed = button_pressed_};
+  while (const auto connect = inbox_.take_connect()) send(orders_.handle(*connect, now_ns));
+  while (const auto order = inbox_.take_order()) {
+    send(orders_.handle(*order, conditions, now_ns));
+  }
+}
+
+void ControlLoop::answer_services(std::int64_t now_ns) {
+  const auto send = [this](const protocol::ServiceAnswer& answer) {
+    if (answer.result != protocol::ServiceResult::kDone) ++counters_.refused_orders;
+    queue(encode(answer));
+  };
+  while (const auto write = inbox_.take_write()) {
+    send(services_.handle(*write, controller_.mode(), now_ns));
+  }
+  while (const auto request = inbox_.take_request()) {
+    send(services_.handle(*request, controller_.mode(), now_ns));
+  }
+  if (services_.take_changed()) adopt_parameters();
+}
+
+/// In mode off only: no drive is under torque. Which drives there are counts from the next start.
+void ControlLoop::adopt_parameters() {
+  controller_.configure(parameters_.settings(), controller_.presence());
+  for (std::size_t i = 0; i < control::kJointCount; ++i) {
+    const auto joint = static_cast<Joint>(i);
+    const bool found_by_homing = joint == Joint::kToe && !parameters_.control.homing.is_absolute();
+    if (found_by_homing && controller_.homed()) continue;
+    inbox_.set_zero(joint, parameters_.zero_rad(joint));
+    gate_.forget_position(joint);
   }
 }
 
@@ -119,15 +181,18 @@ void ControlLoop::tick(std::int64_t now_ns) {
   trip(verdict.faults);
   if (controller_.faults() != 0) gate_.latch();
   record(now_ns);
+  trace();
   adopt_toe_zero();
-  send_telemetry();
+  const auto frame =
+      telemetry_frame(telemetry_, controller_.presence().leg, controller_.hip_above_sand_m());
+  if (frame) queue(*frame);
 }
 
 /// Where the toe's zero was just found, angles count from there with the next tick; where it became
 /// doubtful, travel limits no longer apply to it until homed again.
 void ControlLoop::adopt_toe_zero() {
   if (const std::optional<float> zero_rad = controller_.new_toe_zero_rad()) {
-    inbox_.shift_zero(Joint::kToe, *zero_rad);
+    inbox_.set_zero(Joint::kToe, inbox_.zero_rad(Joint::kToe) + *zero_rad);
     gate_.forget_position(Joint::kToe);
   }
   inbox_.set_referenced(Joint::kToe, controller_.homed());
@@ -138,7 +203,18 @@ void ControlLoop::write(const control::PerJoint<JointWish>& joints) {
     if (!controller_.presence().has(i)) continue;
     const float zero_rad = inbox_.zero_rad(static_cast<Joint>(i));
     const hal::CanFrame frame = frame_for(protocol::kDrives[i], joints[i], zero_rad);
-    if (buses_[bus_of(i)]->send(frame) != hal::SendResult::kQueued) ++counters_.unsent_frames;
+    const bool sent = buses_[bus_of(i)]->send(frame) == hal::SendResult::kQueued;
+    if (!sent) ++counters_.unsent_frames;
+    exit_unsent_[i] = !sent && joints[i].action == DriveAction::kExit;
+  }
+}
+
+/// Exit frames that a full or dead bus refused must not wait for the next SYNC.
+void ControlLoop::send_exit_again() {
+  for (std::size_t i = 0; i < control::kJointCount; ++i) {
+    if (!exit_unsent_[i]) continue;
+    const hal::CanFrame frame = encode_switch(protocol::kDrives[i], protocol::DriveSwitch::kExit);
+    exit_unsent_[i] = buses_[bus_of(i)]->send(frame) != hal::SendResult::kQueued;
   }
 }
 
@@ -177,41 +253,39 @@ void ControlLoop::record(std::int64_t now_ns) {
   t.phase_cycles = leg.path().phase_cycles();
   t.gait_rate_Hz = leg.path().rate_Hz();
   t.ground = controller_.ground();
+  t.supply_V = board_.supply_V();
   t.gate_interventions = gate_.interventions();
   t.counters = counters_;
 }
 
-/// One frame per tick at most, each in a slot of its own, so that a node with three mailboxes never
-/// has to let its drive command wait.
-void ControlLoop::send_telemetry() {
+void ControlLoop::trace() {
+  if (storage_ == nullptr) return;
   const Telemetry& t = telemetry_;
-  const bool leg = controller_.presence().leg;
-  const control::JointState& toe = t.state[index(Joint::kToe)];
-  switch (counters_.ticks % 10) {
-    case 1:
-      return queue(encode(protocol::FootToe{t.toe_set_point_rad, toe.position_rad, toe.torque_Nm,
-                                            toe.temperature_C, t.toe_moving}));
-    case 3:
-      if (!leg) return;
-      return queue(encode(protocol::FootLeg{t.state[index(Joint::kHip)].position_rad,
-                                            t.state[index(Joint::kKnee)].position_rad, t.foot_m.x,
-                                            t.foot_m.z + controller_.hip_above_sand_m()}));
-    case 5:
-      if (!leg) return;
-      return queue(
-          encode(protocol::FootGround{t.phase_cycles, t.ground.sinkage_m, t.ground.force_N.x,
-                                      t.ground.force_N.z, t.ground.contact}));
-    case 7:
-      return queue(encode(protocol::FootGate{t.gate_interventions, t.verdict.limits[0],
-                                             t.verdict.limits[1], t.verdict.limits[2]}));
-    case 9:
-      if (counters_.ticks % 100 != 9) return;
-      return queue(encode(protocol::FootCounters{
-          counters_.ticks, static_cast<std::uint16_t>(counters_.missed_ticks),
-          static_cast<std::uint16_t>(counters_.stale_syncs)}));
-    default:
-      return;
+  TraceSample sample{.tick = t.tick,
+                     .faults = t.faults,
+                     .mode = t.mode,
+                     .active_limits = t.verdict.active_limits()};
+  for (std::size_t i = 0; i < control::kJointCount; ++i) {
+    sample.position_rad[i] = t.state[i].position_rad;
+    sample.velocity_rad_s[i] = t.state[i].velocity_rad_s;
+    sample.torque_Nm[i] = t.state[i].torque_Nm;
   }
+  storage_->fault_log().trace(sample);
+}
+
+/// New faults go to the log with the ticks before them; it is written a few words per millisecond,
+/// SYNC or not. A button that is pressed often leaves half of the log to faults.
+void ControlLoop::keep_fault_log(std::int64_t now_ns) {
+  if (storage_ == nullptr) return;
+  FaultLog& log = storage_->fault_log();
+  const FaultBits faults = controller_.faults();
+  const FaultBits fresh = faults & ~logged_faults_;
+  logged_faults_ = faults;
+  const bool pressed_again = fresh == fault::kEmergencyStop && 2 * log.used() >= log.capacity();
+  if (fresh != 0 && !pressed_again) log.append(fresh, mode_before_, telemetry_.tick, now_ns);
+  if (now_ns - log_step_ns_ < kTick_ns) return;
+  log_step_ns_ = now_ns;
+  log.step();
 }
 
 void ControlLoop::send_heartbeat_if_due(std::int64_t now_ns) {

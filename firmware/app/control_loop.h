@@ -7,10 +7,14 @@
 #include "firmware/app/inbox.h"
 #include "firmware/app/order_desk.h"
 #include "firmware/app/outbox.h"
+#include "firmware/app/ownership.h"
 #include "firmware/app/parameters.h"
+#include "firmware/app/service_desk.h"
+#include "firmware/app/storage.h"
 #include "firmware/app/telemetry.h"
 #include "firmware/control/foot_controller.h"
 #include "firmware/safety/torque_gate.h"
+#include "hal/board.h"
 #include "hal/can_bus.h"
 #include "hal/clock.h"
 
@@ -25,8 +29,11 @@ class ControlLoop {
  public:
   using Buses = std::array<hal::CanBus*, protocol::kBusCount>;
 
-  /// @param buses two connections, which must outlive the loop; they may lead to one wire
-  ControlLoop(Buses buses, const hal::Clock& clock, const Parameters& parameters);
+  /// @param buses two connections; they may lead to one wire
+  /// @param storage from which the parameters were loaded; null where nothing is kept
+  /// All but the parameters must outlive the loop.
+  ControlLoop(Buses buses, const hal::Clock& clock, hal::Board& board, const Parameters& parameters,
+              Storage* storage = nullptr);
   ControlLoop(const ControlLoop&) = delete;
   ControlLoop& operator=(const ControlLoop&) = delete;
 
@@ -40,36 +47,53 @@ class ControlLoop {
   void release_drives() { write({}); }
 
   const Telemetry& telemetry() const { return telemetry_; }
+  const Parameters& parameters() const { return parameters_; }
   control::Mode mode() const { return controller_.mode(); }
   control::FaultBits faults() const { return controller_.faults(); }
 
  private:
+  void examine_start();
   void watch_sync(std::int64_t now_ns);
+  void watch_board(std::int64_t now_ns);
   void read(std::int64_t now_ns);
   void answer_orders(std::int64_t now_ns);
+  void answer_services(std::int64_t now_ns);
+  void adopt_parameters();
   void run_due_tick(std::int64_t now_ns);
   void tick(std::int64_t now_ns);
   void adopt_toe_zero();
   void write(const control::PerJoint<control::JointWish>& joints);
+  void send_exit_again();
+  void keep_fault_log(std::int64_t now_ns);
+  void trace();
   void record(std::int64_t now_ns);
-  void send_telemetry();
   void send_heartbeat_if_due(std::int64_t now_ns);
   void queue(const hal::CanFrame& frame);
   void trip(control::FaultBits faults);
 
   Buses buses_;
   const hal::Clock& clock_;
+  hal::Board& board_;
+  Storage* storage_;
+  Parameters parameters_;
   Counters counters_;
   Inbox inbox_;
   control::FootController controller_;
   safety::TorqueGate gate_;
+  Ownership ownership_;
   OrderDesk orders_;
+  ServiceDesk services_;
   Outbox outbox_;
   Telemetry telemetry_;
 
   bool synced_ = false;
   std::int64_t last_sync_ns_ = 0;
   std::int64_t last_tick_ns_ = 0;
+  bool button_pressed_ = false;            // the e-stop line at the last poll
+  control::PerJoint<bool> exit_unsent_{};  // an e-stop's exit frame that the bus did not take
+  control::Mode mode_before_ = control::Mode::kOff;  // at the begin of this poll
+  control::FaultBits logged_faults_ = 0;
+  std::int64_t log_step_ns_ = 0;
   protocol::Heartbeat heartbeat_;
   bool heartbeat_sent_ = false;
   std::int64_t heartbeat_ns_ = 0;

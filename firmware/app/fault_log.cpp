@@ -40,10 +40,12 @@ std::size_t FaultLog::capacity() const {
 std::optional<FaultRecord> FaultLog::read(std::size_t slot) const {
   if (slot >= used_) return std::nullopt;
   FaultRecordWords words;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    words[i] = flash_.read(sector_, slot_word(slot) + i);
-  }
+  for (std::size_t i = 0; i < words.size(); ++i) words[i] = word(slot, i);
   return decode(words);
+}
+
+FaultLog::Word FaultLog::word(std::size_t slot, std::size_t index) const {
+  return flash_.read(sector_, slot_word(slot) + index);
 }
 
 AppendResult FaultLog::append(control::FaultBits faults, control::Mode mode, std::uint32_t tick,

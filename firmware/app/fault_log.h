@@ -59,6 +59,8 @@ class FaultLog {
 
   /// Oldest first. Nothing for a cut record, and beyond used().
   std::optional<FaultRecord> read(std::size_t slot) const;
+  /// One word of a record as it stands in the flash, for a reader elsewhere that decodes it.
+  Word word(std::size_t slot, std::size_t index) const;
 
   /// Once per tick, whatever the mode.
   void trace(const TraceSample& sample) { ring_.put(sample); }

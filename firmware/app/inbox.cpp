@@ -34,6 +34,9 @@ void Inbox::take(const hal::CanFrame& frame, int bus_index, std::int64_t now_ns)
   };
   if (is(spec(Message::kSync))) return take_sync_frame(frame, bus_index);
   if (is(spec(Message::kSupervisorOrder))) return take_order_frame(frame);
+  if (is(spec(Message::kSupervisorConnect))) return take_into(connects_, frame);
+  if (is(spec(Message::kServiceRequest))) return take_into(requests_, frame);
+  if (is(spec(Message::kParameterWrite))) return take_into(writes_, frame);
   for (const protocol::Drive drive : protocol::kDrives) {
     if (is(protocol::reply_spec(drive))) return take_reply(drive, frame, now_ns);
   }
@@ -94,8 +97,14 @@ void Inbox::take_order_frame(const hal::CanFrame& frame) {
   count(received.result);
   const bool answerable =
       received.result == DecodeResult::kOk || received.result == DecodeResult::kBadCrc;
-  if (!answerable || order_count_ == kOrderQueue) return;  // an order without answer is repeated
-  orders_[order_count_++] = received;
+  if (answerable) orders_.put(received);  // an order without answer is repeated
+}
+
+/// A broken one is not answered: it may be anybody's.
+template <typename M>
+void Inbox::take_into(Queue<M>& queue, const hal::CanFrame& frame) {
+  M message;
+  if (count(decode(frame, message))) queue.put(message);
 }
 
 bool Inbox::take_emergency_stop() {
@@ -110,17 +119,10 @@ std::optional<std::uint32_t> Inbox::take_sync() {
   return tick;
 }
 
-std::optional<ReceivedOrder> Inbox::take_order() {
-  if (order_count_ == 0) return std::nullopt;
-  const ReceivedOrder first = orders_[0];
-  --order_count_;
-  for (std::size_t i = 0; i < order_count_; ++i) orders_[i] = orders_[i + 1];
-  return first;
-}
-
-void Inbox::shift_zero(Joint joint, float shift_rad) {
-  zero_rad_[index(joint)] += shift_rad;
-  joints_[index(joint)].position_rad -= shift_rad;
+void Inbox::set_zero(Joint joint, float zero_rad) {
+  zero_rad_[index(joint)] = zero_rad;
+  JointState& state = joints_[index(joint)];
+  if (state.received) state.position_rad = state.reading_rad - zero_rad;
 }
 
 void Inbox::set_referenced(Joint joint, bool known) {

@@ -1,10 +1,10 @@
 // What came in over the buses: decoded, checked, counted.
 #pragma once
 
-#include <array>
 #include <optional>
 
 #include "firmware/app/counters.h"
+#include "firmware/app/fixed_queue.h"
 #include "firmware/control/types.h"
 #include "firmware/protocol/codec.h"
 #include "hal/can_bus.h"
@@ -31,23 +31,31 @@ class Inbox {
   bool take_emergency_stop();
   /// The newest tick number that is not older than the last one handed out.
   std::optional<std::uint32_t> take_sync();
-  std::optional<ReceivedOrder> take_order();
+  std::optional<ReceivedOrder> take_order() { return orders_.take(); }
+  std::optional<protocol::SupervisorConnect> take_connect() { return connects_.take(); }
+  std::optional<protocol::ServiceRequest> take_request() { return requests_.take(); }
+  std::optional<protocol::ParameterWrite> take_write() { return writes_.take(); }
 
   /// The next SYNC may carry any number: the master may have started anew.
   void forget_sync() { last_tick_.reset(); }
 
-  /// From now on joint angle = old joint angle - shift.
-  void shift_zero(control::Joint joint, float shift_rad);
+  /// From now on joint angle = reading - zero.
+  void set_zero(control::Joint joint, float zero_rad);
   float zero_rad(control::Joint joint) const { return zero_rad_[index(joint)]; }
   void set_referenced(control::Joint joint, bool known);
 
  private:
-  static constexpr std::size_t kOrderQueue = 4;
+  /// More than one of a kind in a poll is a supervisor that does not wait for its answer.
+  static constexpr std::size_t kQueue = 4;
+  template <typename T>
+  using Queue = FixedQueue<T, kQueue>;
 
   void take(const hal::CanFrame& frame, int bus_index, std::int64_t now_ns);
   void take_reply(protocol::Drive drive, const hal::CanFrame& frame, std::int64_t now_ns);
   void take_sync_frame(const hal::CanFrame& frame, int bus_index);
   void take_order_frame(const hal::CanFrame& frame);
+  template <typename M>
+  void take_into(Queue<M>& queue, const hal::CanFrame& frame);
   bool count(protocol::DecodeResult result);
 
   Counters& counters_;
@@ -56,8 +64,10 @@ class Inbox {
   bool emergency_stop_ = false;
   std::optional<std::uint32_t> sync_;
   std::optional<std::uint32_t> last_tick_;
-  std::array<ReceivedOrder, kOrderQueue> orders_{};
-  std::size_t order_count_ = 0;
+  Queue<ReceivedOrder> orders_;
+  Queue<protocol::SupervisorConnect> connects_;
+  Queue<protocol::ServiceRequest> requests_;
+  Queue<protocol::ParameterWrite> writes_;
 };
 
 }  // namespace hoof::firmware::app

@@ -3,7 +3,6 @@
 namespace hoof::firmware::app {
 
 using control::Acceptance;
-using control::Mode;
 using protocol::Order;
 using protocol::OrderResult;
 
@@ -25,63 +24,103 @@ OrderResult result_of(Acceptance acceptance) {
   return OrderResult::kWrongMode;
 }
 
-bool is_idle(Mode mode) {
-  return mode == Mode::kOff || mode == Mode::kEmergencyOff || mode == Mode::kFault;
+OrderResult result_of(Ownership::Standing standing) {
+  switch (standing) {
+    case Ownership::Standing::kGranted:
+      return OrderResult::kAccepted;
+    case Ownership::Standing::kNotConnected:
+      return OrderResult::kNotConnected;
+    case Ownership::Standing::kNotOwner:
+      return OrderResult::kNotOwner;
+    case Ownership::Standing::kBadCounter:
+      return OrderResult::kBadCounter;
+  }
+  return OrderResult::kNotOwner;
 }
 
 }  // namespace
 
-protocol::OrderAcknowledge OrderDesk::handle(const ReceivedOrder& received, std::int64_t now_ns) {
+protocol::OrderAcknowledge OrderDesk::handle(const ReceivedOrder& received,
+                                             const OrderConditions& conditions,
+                                             std::int64_t now_ns) {
+  const OrderResult result = judge(received, conditions, now_ns);
+  return answer(result, received.order.supervisor_id, received.order.counter);
+}
+
+protocol::OrderAcknowledge OrderDesk::handle(const protocol::SupervisorConnect& connect,
+                                             std::int64_t now_ns) {
+  const bool same = ownership_.connect(connect.supervisor_id, connect.protocol_hash, now_ns);
+  return answer(same ? OrderResult::kAccepted : OrderResult::kOtherDictionary,
+                connect.supervisor_id, connect.counter);
+}
+
+protocol::OrderAcknowledge OrderDesk::answer(OrderResult result, std::uint8_t supervisor_id,
+                                             std::uint8_t counter) const {
   protocol::OrderAcknowledge answer;
-  answer.result = judge(received, now_ns);
-  answer.supervisor_id = received.order.supervisor_id;
-  answer.counter = received.order.counter;
+  answer.result = result;
+  answer.supervisor_id = supervisor_id;
+  answer.counter = counter;
   answer.mode = static_cast<protocol::Mode>(controller_.mode());
-  answer.expected_counter = expected_counter_;
-  answer.owner_id = owner_id_;
+  answer.expected_counter = ownership_.expected_counter();
+  answer.owner_id = ownership_.owner_id();
   return answer;
 }
 
-OrderResult OrderDesk::judge(const ReceivedOrder& received, std::int64_t now_ns) {
+OrderResult OrderDesk::judge(const ReceivedOrder& received, const OrderConditions& conditions,
+                             std::int64_t now_ns) {
   if (received.result != protocol::DecodeResult::kOk) return OrderResult::kBadCrc;
   const protocol::SupervisorOrder& order = received.order;
-  if (!may_order(order, now_ns)) return OrderResult::kNotOwner;
-  if (order.counter != expected_counter_) return OrderResult::kBadCounter;
-  ++expected_counter_;
-  const OrderResult result = carry_out(order);
+  ownership_.hear(order.supervisor_id, now_ns);
+  if (order.order == Order::kStop) return stop(order, now_ns);
+  const Ownership::Standing standing =
+      ownership_.judge(order.supervisor_id, order.counter, controller_.mode(), now_ns);
+  if (standing != Ownership::Standing::kGranted) return result_of(standing);
+  ownership_.count();
+  const OrderResult result = carry_out(order, conditions);
   if (result != OrderResult::kAccepted) return result;
-  const bool stopped_by_other =
-      owner_id_ != 0 && order.supervisor_id != owner_id_ && order.order == Order::kStop;
-  if (stopped_by_other) return result;  // the owner stays the owner
-  owner_id_ = order.order == Order::kRelease ? std::uint8_t{0} : order.supervisor_id;
-  heard_ns_ = now_ns;
+  if (order.order == Order::kRelease) {
+    ownership_.release();
+  } else {
+    ownership_.own(order.supervisor_id, now_ns);
+  }
   return result;
 }
 
-bool OrderDesk::may_order(const protocol::SupervisorOrder& order, std::int64_t now_ns) const {
-  if (order.supervisor_id == 0) return false;
-  if (order.order == Order::kStop) return true;
-  const bool lapsed = is_idle(controller_.mode()) && now_ns - heard_ns_ > kLease_ns;
-  return owner_id_ == 0 || owner_id_ == order.supervisor_id || lapsed;
+/// Anybody may stop, connected or not; the owner stays the owner.
+OrderResult OrderDesk::stop(const protocol::SupervisorOrder& order, std::int64_t now_ns) {
+  if (order.supervisor_id == 0) return OrderResult::kNotOwner;
+  if (order.counter != ownership_.expected_counter()) return OrderResult::kBadCounter;
+  ownership_.count();
+  const OrderResult result = result_of(controller_.order_stop());
+  const bool free = ownership_.owner_id() == 0 && ownership_.connected(order.supervisor_id, now_ns);
+  if (result == OrderResult::kAccepted && (free || ownership_.owner_id() == order.supervisor_id)) {
+    ownership_.own(order.supervisor_id, now_ns);
+  }
+  return result;
 }
 
-OrderResult OrderDesk::carry_out(const protocol::SupervisorOrder& order) {
+OrderResult OrderDesk::carry_out(const protocol::SupervisorOrder& order,
+                                 const OrderConditions& conditions) {
   switch (order.order) {
-    case Order::kStop:
-      return result_of(controller_.order_stop());
     case Order::kReady:
-      return result_of(controller_.order_ready(order.toe_angle_rad));
     case Order::kRun:
-      return result_of(controller_.order_run(order.toe_angle_rad, order.frequency_Hz));
+      // Without SYNC nothing would move now; it must not begin to at some later time.
+      if (!conditions.synced) return OrderResult::kNoSync;
+      return result_of(order.order == Order::kReady
+                           ? controller_.order_ready(order.toe_angle_rad)
+                           : controller_.order_run(order.toe_angle_rad, order.frequency_Hz));
     case Order::kReset:
-      return reset();
+      return reset(conditions);
     case Order::kRelease:
       return OrderResult::kAccepted;
+    case Order::kStop:
+      break;  // done before
   }
   return OrderResult::kUnknownOrder;
 }
 
-OrderResult OrderDesk::reset() {
+OrderResult OrderDesk::reset(const OrderConditions& conditions) {
+  if (conditions.emergency_stop_pressed) return OrderResult::kWrongMode;
   const OrderResult result = result_of(controller_.order_reset());
   if (result == OrderResult::kAccepted) gate_.reset();
   return result;

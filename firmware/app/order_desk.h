@@ -1,42 +1,49 @@
-// Who may give orders, in which sequence, and what each order means for the controller.
+// What each order means for the controller, and what its answer is.
 #pragma once
 
 #include <cstdint>
 
 #include "firmware/app/inbox.h"
+#include "firmware/app/ownership.h"
 #include "firmware/control/foot_controller.h"
 #include "firmware/protocol/messages.h"
 #include "firmware/safety/torque_gate.h"
 
 namespace hoof::firmware::app {
 
-/// One supervisor owns the foot from its first accepted order until it releases it, or until the
-/// foot is idle and the owner has been silent for a second. Others are refused, except to stop:
-/// anybody may stop. Every order must carry the expected counter, told in each acknowledge, so that
-/// a repeated, replayed or reordered frame does nothing.
+/// What the loop knows and an order depends on.
+struct OrderConditions {
+  bool synced = true;                   // SYNC is coming
+  bool emergency_stop_pressed = false;  // the line of the button, now
+};
+
+/// Orders of connected supervisors, by the rules of Ownership; but anybody may stop.
 class OrderDesk {
  public:
-  static constexpr std::int64_t kLease_ns = 1'000'000'000;
-
-  OrderDesk(control::FootController& controller, safety::TorqueGate& gate)
-      : controller_(controller), gate_(gate) {}
+  OrderDesk(control::FootController& controller, safety::TorqueGate& gate, Ownership& ownership)
+      : controller_(controller), gate_(gate), ownership_(ownership) {}
 
   /// Carries the order out, or refuses it; the answer is to be sent to the supervisor.
-  protocol::OrderAcknowledge handle(const ReceivedOrder& received, std::int64_t now_ns);
+  protocol::OrderAcknowledge handle(const ReceivedOrder& received,
+                                    const OrderConditions& conditions, std::int64_t now_ns);
 
-  std::uint8_t owner_id() const { return owner_id_; }
+  /// Connects the supervisor, or refuses it for its dictionary.
+  protocol::OrderAcknowledge handle(const protocol::SupervisorConnect& connect,
+                                    std::int64_t now_ns);
 
  private:
-  protocol::OrderResult judge(const ReceivedOrder& received, std::int64_t now_ns);
-  protocol::OrderResult carry_out(const protocol::SupervisorOrder& order);
-  protocol::OrderResult reset();
-  bool may_order(const protocol::SupervisorOrder& order, std::int64_t now_ns) const;
+  protocol::OrderAcknowledge answer(protocol::OrderResult result, std::uint8_t supervisor_id,
+                                    std::uint8_t counter) const;
+  protocol::OrderResult judge(const ReceivedOrder& received, const OrderConditions& conditions,
+                              std::int64_t now_ns);
+  protocol::OrderResult stop(const protocol::SupervisorOrder& order, std::int64_t now_ns);
+  protocol::OrderResult carry_out(const protocol::SupervisorOrder& order,
+                                  const OrderConditions& conditions);
+  protocol::OrderResult reset(const OrderConditions& conditions);
 
   control::FootController& controller_;
   safety::TorqueGate& gate_;
-  std::uint8_t owner_id_ = 0;  // 0: nobody
-  std::int64_t heard_ns_ = 0;  // last accepted order of the owner
-  std::uint8_t expected_counter_ = 0;
+  Ownership& ownership_;
 };
 
 }  // namespace hoof::firmware::app

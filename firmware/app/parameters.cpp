@@ -1,6 +1,9 @@
 #include "firmware/app/parameters.h"
 
 #include <array>
+#include <bit>
+
+#include "firmware/app/crc32.h"
 
 namespace hoof::firmware::app {
 namespace {
@@ -145,16 +148,62 @@ constexpr auto kTable = std::to_array<ParameterEntry>({
      "A sinkage that differs less from what the toes stand at changes nothing"},
     {"stop_longest_s", "s", 0.1f, 10, [](P& p) -> float& { return p.control.stop.longest_s; },
      "A damped stop ends after this time, at rest or not"},
+    {"toe_zero_rad", "rad", -kLargestZero_rad, kLargestZero_rad,
+     [](P& p) -> float& { return p.calibration[0].zero_rad; },
+     "Reading of the toe drive at angle 0; with an absolute encoder"},
+    {"toe_mark_rad", "rad", -0.1f, 1, [](P& p) -> float& { return p.calibration[0].mark_rad; },
+     "Toe angle at its calibration mark"},
+    {"toe_calibrated", "bool", 0, 1, [](P& p) -> float& { return p.calibration[0].done; },
+     "toe_zero_rad is right; with an absolute encoder nothing moves before"},
+    {"hip_zero_rad", "rad", -kLargestZero_rad, kLargestZero_rad,
+     [](P& p) -> float& { return p.calibration[1].zero_rad; },
+     "Reading of the hip drive where the thigh hangs straight down"},
+    {"hip_mark_rad", "rad", -1.2f, 1.6f, [](P& p) -> float& { return p.calibration[1].mark_rad; },
+     "Hip angle at its calibration mark"},
+    {"hip_calibrated", "bool", 0, 1, [](P& p) -> float& { return p.calibration[1].done; },
+     "hip_zero_rad is right; nothing moves before"},
+    {"knee_zero_rad", "rad", -kLargestZero_rad, kLargestZero_rad,
+     [](P& p) -> float& { return p.calibration[2].zero_rad; },
+     "Reading of the knee drive where the shank is in line with the thigh"},
+    {"knee_mark_rad", "rad", -2.7f, 0.05f, [](P& p) -> float& { return p.calibration[2].mark_rad; },
+     "Knee angle at its calibration mark"},
+    {"knee_calibrated", "bool", 0, 1, [](P& p) -> float& { return p.calibration[2].done; },
+     "knee_zero_rad is right; nothing moves before"},
     {"toe_present", "bool", 0, 1, [](P& p) -> float& { return p.toe_present; },
-     "This rig has a toe drive"},
+     "This rig has a toe drive; counts from the next start"},
     {"leg_present", "bool", 0, 1, [](P& p) -> float& { return p.leg_present; },
-     "This rig has hip and knee drives"},
+     "This rig has hip and knee drives; counts from the next start"},
 });
 
 }  // namespace
 
+control::Settings Parameters::settings() const {
+  control::Settings all = control;
+  all.homing.calibrated = calibration[index(control::Joint::kToe)].done;
+  all.leg.calibrated = calibration[index(control::Joint::kHip)].done *
+                       calibration[index(control::Joint::kKnee)].done;
+  return all;
+}
+
+float Parameters::zero_rad(control::Joint joint) const {
+  const bool homes = joint == control::Joint::kToe && !control.homing.is_absolute();
+  return homes ? 0.0f : calibration[index(joint)].zero_rad;
+}
+
 std::span<const ParameterEntry> parameter_table() {
   return kTable;
+}
+
+std::uint32_t parameter_table_hash() {
+  Crc32 crc;
+  for (const ParameterEntry& entry : kTable) {
+    crc.add(entry.name).add(std::uint8_t{0}).add(entry.unit).add(std::uint8_t{0});
+    const std::array<std::uint32_t, 3> numbers{std::bit_cast<std::uint32_t>(entry.minimum),
+                                               std::bit_cast<std::uint32_t>(entry.maximum),
+                                               std::bit_cast<std::uint32_t>(entry.default_value())};
+    crc.add(numbers);
+  }
+  return crc.value();
 }
 
 const ParameterEntry* find_parameter(std::string_view name) {
@@ -166,9 +215,12 @@ const ParameterEntry* find_parameter(std::string_view name) {
 
 SetResult set(Parameters& parameters, std::string_view name, float value) {
   const ParameterEntry* entry = find_parameter(name);
-  if (entry == nullptr) return SetResult::kUnknownName;
-  if (!(value >= entry->minimum && value <= entry->maximum)) return SetResult::kOutOfRange;
-  entry->value(parameters) = value;
+  return entry == nullptr ? SetResult::kUnknownName : set(parameters, *entry, value);
+}
+
+SetResult set(Parameters& parameters, const ParameterEntry& entry, float value) {
+  if (!(value >= entry.minimum && value <= entry.maximum)) return SetResult::kOutOfRange;
+  entry.value(parameters) = value;
   return SetResult::kOk;
 }
 

@@ -31,6 +31,8 @@ struct Telemetry {
   float gait_rate_Hz = 0.0f;
   control::GroundEstimate ground;
 
+  control::PerJoint<float> heat_ratio{};  // winding's heat over what it bears for ever
+  float supply_V = 0.0f;                  // 0 where the board does not measure it
   std::uint32_t gate_interventions = 0;
   Counters counters;
 };

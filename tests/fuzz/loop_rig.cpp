@@ -47,7 +47,7 @@ void RigDrive::run() {
 /// The toe lies by its stop and the leg at the top of the default path (hip 0.562, knee -1.420),
 /// so that little time passes until the foot runs.
 LoopRig::LoopRig(const app::Parameters& parameters)
-    : loop_({&buses_[0], &buses_[1]}, clock_, parameters), watch_(parameters.presence()) {
+    : loop_({&buses_[0], &buses_[1]}, clock_, board_, parameters), watch_(parameters.presence()) {
   drives_[0].plant.stop_rad = 0.0;
   drives_[0].plant.q_rad = 0.005;
   drives_[1].plant.q_rad = 0.562;

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "firmware/app/control_loop.h"
+#include "hal/in_process/soft_board.h"
 #include "hal/stepped_clock.h"
 #include "tests/firmware/control/joint_plant.h"
 #include "tests/fuzz/fuzz_bus.h"
@@ -54,6 +55,7 @@ class LoopRig {
 
   std::array<FuzzBus, firmware::protocol::kBusCount> buses_;
   hal::SteppedClock clock_;
+  hal::SoftBoard board_;
   std::array<RigDrive, firmware::protocol::kDriveCount> drives_;
   firmware::app::ControlLoop loop_;
   LoopWatch watch_;

@@ -21,6 +21,18 @@ struct Bench {
   hal::InProcessBus bus{{.name = "bus", .bit_rates = {}}};
   hal::InProcessPort& foot = bus.attach("foot");
   Supervisor supervisor{bus.attach("supervisor"), kId};
+  std::vector<SupervisorConnect> connects;
+  bool welcomes = true;       // connections are answered at once
+  std::uint8_t expected = 0;  // counter told in that answer
+
+  void answer_connect(const SupervisorConnect& connect, OrderResult result) {
+    OrderAcknowledge answer;
+    answer.supervisor_id = connect.supervisor_id;
+    answer.counter = connect.counter;
+    answer.result = result;
+    answer.expected_counter = expected;
+    foot.send(encode(answer));
+  }
 
   /// Lets `ms` milliseconds pass; the orders that arrived at the foot.
   std::vector<SupervisorOrder> run(int ms) {
@@ -31,6 +43,12 @@ struct Bench {
       hal::CanFrame frame;
       while (foot.receive(frame)) {
         SupervisorOrder order;
+        SupervisorConnect connect;
+        if (decode(frame, connect) == DecodeResult::kOk) {
+          connects.push_back(connect);
+          if (welcomes) answer_connect(connect, OrderResult::kAccepted);
+          continue;
+        }
         REQUIRE(decode(frame, order) == DecodeResult::kOk);
         orders.push_back(order);
       }
@@ -40,7 +58,7 @@ struct Bench {
 
   std::vector<SupervisorOrder> after_heartbeat(const Heartbeat& heartbeat = healthy()) {
     foot.send(encode(heartbeat));
-    return run(2);
+    return run(4);
   }
 
   std::vector<SupervisorOrder> after_answer(const SupervisorOrder& order, OrderResult result,
@@ -179,7 +197,7 @@ TEST_CASE("faults in the heartbeat are named") {
   Bench bench;
   Heartbeat ill = Bench::healthy();
   ill.mode = Mode::kDampedStop;
-  ill.faults = 1u << 1 | 1u << 12;
+  ill.faults = 1u << 1 | 1u << 14;
   bench.after_heartbeat(ill);
   REQUIRE(bench.supervisor.heartbeat());
   CHECK(bench.supervisor.trouble() ==
@@ -191,7 +209,7 @@ TEST_CASE("faults do not keep an order back, for reset is one") {
   bench.supervisor.order(Order::kReset);
   Heartbeat ill = Bench::healthy();
   ill.mode = Mode::kFault;
-  ill.faults = 1u << 8;
+  ill.faults = 1u << 9;
   const auto sent = bench.after_heartbeat(ill);
   REQUIRE(sent.size() == 1);
   CHECK(bench.supervisor.trouble() == "the firmware reports homing_failed in mode fault");
@@ -224,4 +242,62 @@ TEST_CASE("the toes are known as the foot told them") {
   CHECK(bench.supervisor.toe()->commanded_rad == Approx(0.5).margin(5e-5));
   CHECK(bench.supervisor.toe()->measured_rad == Approx(0.25).margin(5e-5));
   CHECK(bench.supervisor.toe()->moving);
+}
+
+TEST_CASE("it connects before its first order, again until answered, and not before every order") {
+  Bench bench;
+  bench.welcomes = false;
+  bench.expected = 17;
+  bench.supervisor.order(Order::kReady, 0.1);
+  CHECK(bench.after_heartbeat().empty());
+  CHECK(bench.run(61).empty());
+  REQUIRE(bench.connects.size() == 4);  // every 20 ms
+  CHECK(bench.connects[0].supervisor_id == kId);
+  CHECK(bench.connects[0].protocol_hash == kProtocolHash);
+  bench.welcomes = true;
+  const auto first = bench.run(30);
+  REQUIRE(first.size() >= 1);
+  CHECK(first[0].counter == 17);  // as the answer told
+  bench.after_answer(first[0], OrderResult::kAccepted, 18);
+  const std::size_t before = bench.connects.size();
+  bench.supervisor.order(Order::kRun, 0.1, 0.5);
+  CHECK(bench.run(2).size() == 1);
+  CHECK(bench.connects.size() == before);
+}
+
+TEST_CASE("a connection that lapsed is made anew and the order goes out again") {
+  Bench bench;
+  bench.supervisor.order(Order::kReady, 0.1);
+  const auto first = bench.after_heartbeat();
+  REQUIRE(first.size() == 1);
+  const std::size_t before = bench.connects.size();
+  CHECK(bench.after_answer(first[0], OrderResult::kNotConnected, 0).empty());
+  const auto again = bench.run(3);
+  CHECK(bench.connects.size() == before + 1);
+  REQUIRE(again.size() == 1);
+  CHECK(again[0].order == Order::kReady);
+  CHECK(bench.supervisor.refusal().empty());
+}
+
+TEST_CASE("a foot that refuses the dictionary gets no orders, and it is said why") {
+  Bench bench;
+  bench.welcomes = false;
+  bench.supervisor.order(Order::kReady, 0.1);
+  bench.after_heartbeat();
+  REQUIRE(bench.connects.size() == 1);
+  bench.answer_connect(bench.connects[0], OrderResult::kOtherDictionary);
+  CHECK(bench.run(100).empty());
+  CHECK(bench.supervisor.trouble() ==
+        "the firmware speaks another dictionary and refuses ours, whose protocol hash is " +
+            std::to_string(kProtocolHash));
+}
+
+TEST_CASE("a stop does not wait to be introduced") {
+  Bench bench;
+  bench.welcomes = false;
+  bench.supervisor.order(Order::kStop);
+  const auto sent = bench.after_heartbeat();
+  REQUIRE(sent.size() == 1);
+  CHECK(sent[0].order == Order::kStop);
+  CHECK(bench.connects.empty());
 }

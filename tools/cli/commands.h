@@ -10,7 +10,9 @@ namespace hoof::tools {
 // that parsing it fills `invocation`.
 void add_bed_command(CLI::App& app, Invocation& invocation);
 void add_dbc_command(CLI::App& app, Invocation& invocation);
+void add_faults_command(CLI::App& app, Invocation& invocation);
 void add_order_command(CLI::App& app, Invocation& invocation);  // hoof command
+void add_param_command(CLI::App& app, Invocation& invocation);
 void add_report_command(CLI::App& app, Invocation& invocation);
 void add_sinkage_command(CLI::App& app, Invocation& invocation);
 void add_study_command(CLI::App& app, Invocation& invocation);

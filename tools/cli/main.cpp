@@ -77,6 +77,8 @@ int main(int argc, char** argv) {
   add_study_command(app, invocation);
   add_bed_command(app, invocation);
   add_order_command(app, invocation);
+  add_param_command(app, invocation);
+  add_faults_command(app, invocation);
   add_dbc_command(app, invocation);
   add_trajectory_command(app);
   add_report_command(app, invocation);

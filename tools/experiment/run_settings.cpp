@@ -62,6 +62,10 @@ Parameters rig_parameters(const RunSettings& run) {
     m.friction_Nm = float(hip->coulomb_friction_Nm);
     m.viscous_friction_Nm_s_rad = float(hip->viscous_friction_Nm_s_rad);
   }
+  // The plant's encoders of hip and knee read joint angles.
+  for (const auto joint : {firmware::control::Joint::kHip, firmware::control::Joint::kKnee}) {
+    p.calibration[index(joint)].done = 1.0f;
+  }
   auto& path = p.control.path;
   path.semi_x_m = float(run.traction.ellipse.half_length_m);
   path.semi_z_m = float(run.traction.ellipse.half_height_m);

@@ -3,12 +3,15 @@
 #include <atomic>
 #include <csignal>
 #include <iostream>
+#include <optional>
 #include <string>
 
 #include "firmware/app/control_loop.h"
 #include "firmware/app/received_ids.h"
 #include "firmware/board/host/options.h"
 #include "firmware/board/host/scaled_clock.h"
+#include "hal/file_flash/file_flash.h"
+#include "hal/in_process/soft_board.h"
 #include "hal/socketcan/socketcan_bus.h"
 
 namespace {
@@ -23,6 +26,10 @@ void on_signal(int) {
 
 /// Sleeps at most this long: also without frames the loop looks at its clock every millisecond.
 constexpr std::int64_t kLongestSleep_ns = 500'000;
+
+/// As on the STM32F405: two sectors of parameters, one of faults, 16 KB each.
+constexpr std::size_t kFlashSectors = 3;
+constexpr std::size_t kFlashSectorWords = 4096;
 
 bool drives_off(control::Mode mode) {
   return mode == control::Mode::kOff || mode == control::Mode::kEmergencyOff ||
@@ -58,7 +65,16 @@ int start(const board::Options& options) {
   hoof::hal::SocketCanBus bus0(connection(options.bus0, 0));
   hoof::hal::SocketCanBus bus1(connection(options.bus1, 1));
   const board::ScaledClock clock(options.slow_down);
-  app::ControlLoop loop({&bus0, &bus1}, clock, options.parameters);
+  std::optional<hoof::hal::FileFlash> flash;
+  std::optional<app::Storage> storage;
+  app::Parameters parameters;
+  if (!options.flash.empty()) {
+    flash.emplace(options.flash, kFlashSectors, kFlashSectorWords);
+    storage.emplace(*flash).load(parameters);
+  }
+  board::apply_settings(options, parameters);
+  hoof::hal::SoftBoard board;
+  app::ControlLoop loop({&bus0, &bus1}, clock, board, parameters, storage ? &*storage : nullptr);
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   run(loop, bus0);
@@ -73,7 +89,8 @@ int main(int argc, char** argv) {
   try {
     return start(board::read_options(argc, argv));
   } catch (const CLI::Success&) {
-    std::cout << "usage: hoof-firmware --bus can0[,can1] [--set name=value]... [--slow-down N]\n";
+    std::cout << "usage: hoof-firmware --bus can0[,can1] [--set name=value]... [--flash FILE] "
+                 "[--slow-down N]\n";
     return 0;
   } catch (const CLI::ParseError& error) {
     std::cerr << "hoof-firmware: " << error.what() << '\n';

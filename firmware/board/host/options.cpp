@@ -43,24 +43,33 @@ std::string apply_setting(app::Parameters& parameters, std::string_view setting)
 Options read_options(int argc, char** argv) {
   Options options;
   std::string buses;
-  std::vector<std::string> settings;
   CLI::App app{"Foot control firmware on Linux, over SocketCAN", "hoof-firmware"};
   app.add_option("--bus", buses, "interface of bus 0, or of bus 0 and bus 1: can0 or can0,can1")
       ->required();
-  app.add_option("--set", settings, "parameter as name=value; may be repeated");
+  app.add_option("--set", options.settings, "parameter as name=value; may be repeated");
   app.add_option("--slow-down", options.slow_down,
                  "wall seconds per control second, for a plant simulated slower than real time")
       ->check(CLI::Range(1.0, 1e6));
+  app.add_option("--flash", options.flash,
+                 "file that holds parameters and fault log, made where it is missing");
+  app.footer(
+      "Example:\n"
+      "  hoof-firmware --bus can0,can1 --flash foot.flash --set hip_calibrated=1");
   app.parse(argc, argv);
 
   const std::size_t comma = buses.find(',');
   options.bus0 = buses.substr(0, comma);
   options.bus1 = comma == std::string::npos ? options.bus0 : buses.substr(comma + 1);
-  for (const std::string& setting : settings) {
-    const std::string problem = apply_setting(options.parameters, setting);
+  app::Parameters trial;
+  for (const std::string& setting : options.settings) {
+    const std::string problem = apply_setting(trial, setting);
     if (!problem.empty()) throw CLI::ValidationError(problem);
   }
   return options;
+}
+
+void apply_settings(const Options& options, app::Parameters& parameters) {
+  for (const std::string& setting : options.settings) apply_setting(parameters, setting);
 }
 
 }  // namespace hoof::firmware::board

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "firmware/app/parameters.h"
 
@@ -11,10 +12,14 @@ struct Options {
   std::string bus0;
   std::string bus1;  // the same as bus0 where one interface carries everything
   double slow_down = 1.0;
-  app::Parameters parameters;
+  std::string flash;                  // file with what outlives the power; empty: nothing does
+  std::vector<std::string> settings;  // name=value, checked
 };
 
 /// @throws CLI::ParseError for bad usage (also for --help), with the text to print
 Options read_options(int argc, char** argv);
+
+/// Sets what the command line sets, over what is there.
+void apply_settings(const Options& options, app::Parameters& parameters);
 
 }  // namespace hoof::firmware::board

@@ -256,11 +256,11 @@ TEST_CASE("Orders with a bad CRC, an old counter or from another supervisor do n
     CHECK(bench.counter == right);  // the answer tells the right one
   }
   CHECK(bench.order(Order::kReady, 0.1f, 0.0f, 2) == OrderResult::kNotOwner);
-  CHECK(bench.order(Order::kReady, 0.1f, 0.0f, 0) == OrderResult::kNotOwner);
+  CHECK(bench.order(Order::kReady, 0.1f, 0.0f, 0) == OrderResult::kNotConnected);
   CHECK(bench.order(Order::kReady, 0.96f) == OrderResult::kOutOfRange);
   CHECK(bench.loop->mode() == Mode::kRunning);
   bench.run(1);
-  CHECK(bench.loop->telemetry().counters.refused_orders == 7);
+  CHECK(bench.loop->telemetry().counters.refused_orders == 8);  // the connection of number 0, too
   // But anybody may stop.
   CHECK(bench.order(Order::kStop, 0.0f, 0.0f, 2) == OrderResult::kAccepted);
   CHECK(bench.loop->mode() == Mode::kDampedStop);

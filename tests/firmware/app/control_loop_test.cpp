@@ -62,7 +62,7 @@ TEST_CASE("Toe gain by parameter: half holds half as well, none not at all") {
   double deflection_rad[3] = {};
   const float gains[3] = {250.0f, 125.0f, 0.0f};
   for (int i = 0; i < 3; ++i) {
-    app::Parameters parameters;
+    app::Parameters parameters = app::test::calibrated();
     REQUIRE(app::set(parameters, "toe_kp_Nm_rad", gains[i]) == app::SetResult::kOk);
     REQUIRE(app::set(parameters, "leg_present", 0.0f) == app::SetResult::kOk);
     LoopBench bench(parameters);

@@ -54,16 +54,42 @@ TEST_CASE("A reply becomes a joint state with its time, on its own bus only") {
   CHECK(state.error == 2);
 }
 
-TEST_CASE("A shifted zero moves present and later angles") {
+TEST_CASE("A zero moves present and later angles; the reading stays") {
   Post post;
+  post.inbox.set_zero(Joint::kToe, 0.5f);
+  CHECK(post.inbox.joints()[0].position_rad == 0.0f);  // nothing was read yet
   const CanFrame toe = encode_reply(protocol::Drive::kToe, {0, 2.0f, 0, 0, 25, 0});
   post.deliver(toe, 0);
-  post.inbox.shift_zero(Joint::kToe, 1.5f);
+  CHECK(post.inbox.joints()[0].position_rad == Approx(1.5f).margin(2e-4));
+  CHECK(post.inbox.joints()[0].reading_rad == Approx(2.0f).margin(2e-4));  // a code is 3.8e-4
+  post.inbox.set_zero(Joint::kToe, 1.5f);
   CHECK(post.inbox.joints()[0].position_rad == Approx(0.5f).margin(2e-4));
   post.deliver(toe, 0);
   CHECK(post.inbox.joints()[0].position_rad == Approx(0.5f).margin(2e-4));
-  post.inbox.shift_zero(Joint::kToe, 0.1f);
-  CHECK(post.inbox.zero_rad(Joint::kToe) == Approx(1.6f));
+  CHECK(post.inbox.zero_rad(Joint::kToe) == 1.5f);
+}
+
+TEST_CASE("Connections, requests and writes are handed out once each; broken ones are counted") {
+  Post post;
+  const auto frames = {
+      encode(protocol::SupervisorConnect{7, 0x12345678, 9}),
+      encode(protocol::ParameterWrite{7, 3, 0x3F800000, 1}),
+      encode(protocol::ServiceRequest{7, protocol::Service::kReadFaultLog, 2, 300, 0, 4})};
+  for (const CanFrame& frame : frames) {
+    post.deliver(frame, 0);
+    CanFrame broken = frame;
+    broken.data[2] ^= 1;
+    post.deliver(broken, 0);
+    post.deliver(frame, 1);  // supervisors are on bus 0
+  }
+  CHECK(post.counters.bad_crc_frames == 3);
+  CHECK(post.counters.unknown_frames == 3);
+  CHECK(post.inbox.take_connect()->protocol_hash == 0x12345678);
+  CHECK(post.inbox.take_write()->value == 0x3F800000);
+  CHECK(post.inbox.take_request()->offset == 300);
+  CHECK_FALSE(post.inbox.take_connect().has_value());
+  CHECK_FALSE(post.inbox.take_write().has_value());
+  CHECK_FALSE(post.inbox.take_request().has_value());
 }
 
 TEST_CASE("SYNC: only forward, only from bus 0, over the end of the numbers") {

@@ -9,7 +9,9 @@
 
 #include "firmware/app/control_loop.h"
 #include "firmware/protocol/codec.h"
+#include "firmware/protocol/protocol_hash.h"
 #include "hal/in_process/in_process_bus.h"
+#include "hal/in_process/soft_board.h"
 #include "hal/stepped_clock.h"
 #include "tests/firmware/control/joint_plant.h"
 
@@ -69,12 +71,20 @@ class TestDrive {
   int age_ms_ = 1000;
 };
 
+/// Parameters of a rig whose leg's encoders read joint angles; its toe is homed.
+inline Parameters calibrated(Parameters parameters = {}) {
+  parameters.calibration[index(control::Joint::kHip)].done = 1.0f;
+  parameters.calibration[index(control::Joint::kKnee)].done = 1.0f;
+  return parameters;
+}
+
 struct LoopBench {
   static constexpr std::int64_t kMillisecond_ns = 1'000'000;
 
   hal::InProcessBus bus0{{.name = "bus0", .bit_rates = {}}};
   hal::InProcessBus bus1{{.name = "bus1", .bit_rates = {}}};
   hal::SteppedClock clock;
+  hal::SoftBoard board;
   hal::InProcessPort& foot0 = bus0.attach("foot");
   hal::InProcessPort& foot1 = bus1.attach("foot");
   hal::InProcessPort& master0 = bus0.attach("sync");
@@ -92,8 +102,11 @@ struct LoopBench {
   std::uint8_t counter = 0;  // of the next order
   std::vector<protocol::OrderAcknowledge> answers;
   std::vector<protocol::Heartbeat> heartbeats;
+  std::vector<protocol::ServiceAnswer> service_answers;
 
-  explicit LoopBench(const Parameters& parameters = {}) {
+  explicit LoopBench(const Parameters& parameters = calibrated(), Storage* storage = nullptr,
+                     hal::ResetCause cause = hal::ResetCause::kPowerOn) {
+    board.cause = cause;
     toe.zero_rad = -1.5;  // its count starts anywhere
     toe.plant.stop_rad = 0.0;
     toe.plant.q_rad = 0.1;
@@ -107,7 +120,8 @@ struct LoopBench {
     // Nodes that nobody reads would only fill their queues.
     master0.set_filters({{.id = 0x7FF, .mask = 0x7FF}});
     master1.set_filters({{.id = 0x7FF, .mask = 0x7FF}});
-    loop = std::make_unique<ControlLoop>(ControlLoop::Buses{&foot0, &foot1}, clock, parameters);
+    loop = std::make_unique<ControlLoop>(ControlLoop::Buses{&foot0, &foot1}, clock, board,
+                                         parameters, storage);
   }
 
   /// One millisecond, seen in steps of 50 microseconds.
@@ -142,8 +156,15 @@ struct LoopBench {
     return -1;
   }
 
+  void connect(std::uint8_t who = 1, std::uint32_t hash = protocol::kProtocolHash) {
+    supervisor.send(encode(protocol::SupervisorConnect{who, hash, 0}));
+  }
+
+  /// As a supervisor does it: connected first.
   void send_order(protocol::Order order, float toe_angle_rad = 0.0f, float frequency_Hz = 0.0f,
                   std::uint8_t who = 1) {
+    connect(who);
+    millisecond();  // an order has the smaller identifier: it would overtake
     supervisor.send(
         encode(protocol::SupervisorOrder{who, order, toe_angle_rad, frequency_Hz, counter}));
   }
@@ -153,9 +174,18 @@ struct LoopBench {
                               float frequency_Hz = 0.0f, std::uint8_t who = 1) {
     const std::size_t before = answers.size();
     send_order(order, toe_angle_rad, frequency_Hz, who);
-    for (int i = 0; i < 10 && answers.size() == before; ++i) millisecond();
+    for (int i = 0; i < 10 && answers.size() < before + 2; ++i) millisecond();
     counter = answers.back().expected_counter;
     return answers.back().result;
+  }
+
+  /// Sends a frame that asks for something and waits for its answer.
+  template <typename M>
+  protocol::ServiceAnswer ask(const M& request) {
+    const std::size_t before = service_answers.size();
+    supervisor.send(encode(request));
+    for (int i = 0; i < 10 && service_answers.size() == before; ++i) millisecond();
+    return service_answers.back();
   }
 
   void listen() {
@@ -163,6 +193,8 @@ struct LoopBench {
     while (supervisor.receive(frame)) {
       protocol::OrderAcknowledge answer;
       protocol::Heartbeat heartbeat;
+      protocol::ServiceAnswer service;
+      if (decode(frame, service) == protocol::DecodeResult::kOk) service_answers.push_back(service);
       if (decode(frame, answer) == protocol::DecodeResult::kOk) answers.push_back(answer);
       if (decode(frame, heartbeat) == protocol::DecodeResult::kOk) heartbeats.push_back(heartbeat);
     }

@@ -7,6 +7,7 @@
 #include "firmware/app/control_loop.h"
 #include "firmware/protocol/codec.h"
 #include "hal/in_process/in_process_bus.h"
+#include "hal/in_process/soft_board.h"
 #include "hal/stepped_clock.h"
 #include "tools/run/errors.h"
 
@@ -29,10 +30,11 @@ struct Bench {
   hal::InProcessBus bus0{{.name = "can0", .bit_rates = {}}};
   hal::InProcessBus bus1{{.name = "can1", .bit_rates = {}}};
   hal::SteppedClock clock;
+  hal::SoftBoard board;
   hal::CanBus& master = bus0.attach("sync");
   hal::CanBus& desk = bus0.attach("supervisor");
   firmware::app::ControlLoop foot{
-      {&bus0.attach("foot"), &bus1.attach("foot")}, clock, without_leg()};
+      {&bus0.attach("foot"), &bus1.attach("foot")}, clock, board, without_leg()};
   std::uint32_t tick = 0;
   bool foot_runs = true;
 
