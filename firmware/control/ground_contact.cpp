@@ -9,6 +9,7 @@ GroundContact::GroundContact(const ContactSettings& settings, const LegKinematic
 void GroundContact::reset() {
   estimate_ = {};
   above_s_ = 0.0f;
+  feigned_N_ = 0.0f;
 }
 
 const GroundEstimate& GroundContact::update(LegAngles q, LegAngles velocity_rad_s,
@@ -31,10 +32,18 @@ void GroundContact::feel_force(LegAngles q, LegAngles velocity_rad_s, LegAngles 
   const float share = dt_s / (settings_.filter_s + dt_s);  // first-order low pass
   estimate_.force_N.x += share * (force.x - estimate_.force_N.x);
   estimate_.force_N.z += share * (force.z - estimate_.force_N.z);
+  feigned_N_ += share * (friction_force_N(q, velocity_rad_s) - feigned_N_);
+}
+
+/// Vertical force of the worst signs of the friction that the model may have wrong.
+float GroundContact::friction_force_N(LegAngles q, LegAngles velocity_rad_s) const {
+  const LegAngles doubt = dynamics_.friction_doubt_Nm(velocity_rad_s);
+  return absolute(kinematics_.foot_force_N(q, {doubt.hip_rad, 0.0f}).z) +
+         absolute(kinematics_.foot_force_N(q, {0.0f, doubt.knee_rad}).z);
 }
 
 void GroundContact::detect(PlaneVector foot_m, float dt_s) {
-  const float force_N = estimate_.force_N.z;
+  const float force_N = estimate_.force_N.z - feigned_N_;
   const bool holds =
       force_N >= (estimate_.contact ? settings_.release_force_N : settings_.touch_force_N);
   if (!holds) {

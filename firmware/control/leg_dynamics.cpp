@@ -34,4 +34,9 @@ LegAngles LegDynamics::torque_Nm(LegAngles q, LegAngles v, LegAngles a) const {
           q_s + rotor_ * a.knee_rad + smooth_friction_Nm(friction_, viscous_, v.knee_rad)};
 }
 
+LegAngles LegDynamics::friction_doubt_Nm(LegAngles v) const {
+  return {smooth_friction_doubt_Nm(friction_, v.hip_rad),
+          smooth_friction_doubt_Nm(friction_, v.knee_rad)};
+}
+
 }  // namespace hoof::firmware::control

@@ -97,7 +97,7 @@ struct PathSettings {
 
 struct ContactSettings {
   float filter_s = 0.01f;
-  float touch_force_N = 25.0f;  // friction of 2 Nm per joint reads as up to 10 N at the foot
+  float touch_force_N = 25.0f;  // above what friction may feign, see ground_contact.h
   float release_force_N = 12.0f;
   float hold_s = 0.005f;
   /// Speed of the hip over ground, forward: 0 where the hip is held, as on the paper's rig.

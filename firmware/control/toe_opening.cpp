@@ -77,15 +77,15 @@ void ToeOpening::watch_move(const JointState& toe) {
   jam_s_ = stuck && pushing ? jam_s_ + period_s_ : 0.0f;
 }
 
-/// way/v + v/a + a/j is the duration where speed and acceleration reach their limits, and a bound
-/// where they do not: the duration grows with the way by at least 1/v, and v/a + a/j is at least
-/// 2 sqrt(v/j), what it takes to gain and lose the speed without ever reaching a.
+/// way/v + v/a + a/j is the duration where speed and acceleration reach their limits. Where they do
+/// not, it is longer than that by up to w^2 / (4 a v), w = a^2/j <= v, or 0.19 a/j (speed without
+/// ever reaching a): a/(4 j) covers all. A plan under way has to be finished before the move's own.
 float ToeOpening::longest_move_s(float way_rad) const {
-  constexpr int kPlanning = trajectory::Planner<float, 1>::usual_units(1) / kPlanningUnitsPerTick;
+  constexpr int kPlan = trajectory::Planner<float, 1>::usual_units(1) / kPlanningUnitsPerTick + 1;
   const float v = settings_.speed_rad_s;
   const float a = settings_.acceleration_rad_s2;
-  return way_rad / v + v / a + a / settings_.jerk_rad_s3 +
-         static_cast<float>(kPlanning + 2) * period_s_;
+  return way_rad / v + v / a + 1.25f * a / settings_.jerk_rad_s3 +
+         static_cast<float>(2 * kPlan) * period_s_;
 }
 
 }  // namespace hoof::firmware::control

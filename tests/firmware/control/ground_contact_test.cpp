@@ -6,8 +6,15 @@ using namespace hoof::firmware::control;
 
 namespace {
 
+/// Without friction the thresholds are those of the settings; with it: slip_test.cpp.
+LegModelSettings frictionless() {
+  LegModelSettings settings;
+  settings.friction_Nm = 0.0f;
+  return settings;
+}
+
 struct Rig {
-  LegModelSettings model;
+  LegModelSettings model = frictionless();
   LegKinematics kinematics{0.3f, 0.3f};
   LegDynamics dynamics{model};
   GroundContact contact{ContactSettings{}, kinematics, dynamics};
