@@ -1,11 +1,10 @@
 #include "firmware/board/stm32f405/system.h"
 
-#include "firmware/app/received_ids.h"
+#include "firmware/board/stm32f405/can_filters.h"
 #include "firmware/board/stm32f405/interrupts.h"
 #include "firmware/board/stm32f405/memory.h"
 #include "firmware/board/stm32f405/peripherals.h"
 #include "firmware/board/stm32f405/pins.h"
-#include "hal/bxcan/filters.h"
 #include "hal/interrupt_lock.h"
 
 namespace hoof::firmware::stm32f405 {
@@ -23,17 +22,6 @@ System the_system{
     BxCanBus(can2_registers()),
 };
 
-/// The dictionary's smallest identifier is the e-stop's: it alone has FIFO 0.
-void set_filters() {
-  hal::bxcan::FilterSetup setup(can1_registers());
-  for (std::size_t bus = 0; bus < 2; ++bus) {
-    app::for_each_received_id(bus, [&setup, bus](std::uint32_t id) {
-      const bool urgent = id == app::kEmergencyStopId;
-      setup.accept(bus, id, urgent ? BxCanBus::kUrgentFifo : BxCanBus::kOrdinaryFifo);
-    });
-  }
-}
-
 }  // namespace
 
 System& system() { return the_system; }
@@ -46,7 +34,7 @@ void System::start() {
   rcc_registers().AHB1ENR.set(rcc::kPortB);
   rcc_registers().APB1ENR.set(rcc::kCan1 | rcc::kCan2);
   configure_pins(port_b());
-  set_filters();
+  set_can_filters(can1_registers());
   if (const std::optional<std::uint32_t> timing = can_bit_timing(clocks)) {
     bus0.start(*timing);
     bus1.start(*timing);
