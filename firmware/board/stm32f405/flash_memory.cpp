@@ -19,8 +19,8 @@ constexpr std::uint32_t kProgramTries = 20'000;
 
 /// The data sheet's worst is 500 ms; the watchdog's long time 1 s at least.
 constexpr std::uint32_t kLongestErase_ms = 800;
-/// Ends the wait where no tick comes. At 168 MHz a look takes some 20 cycles: 6 s.
-constexpr std::uint32_t kEraseTries = 50'000'000;
+/// Ends the wait where no tick comes. At 168 MHz a look takes some 20 cycles: 1 s.
+constexpr std::uint32_t kEraseTries = 8'000'000;
 
 }  // namespace
 

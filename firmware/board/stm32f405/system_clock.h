@@ -12,7 +12,12 @@ namespace hoof::firmware::stm32f405 {
 /// loop and from interrupts of the tick's own priority.
 class SystemClock final : public hal::Clock {
  public:
-  SystemClock(SysTickRegisters& systick, ScbRegisters& scb) : systick_(systick), scb_(scb) {}
+  /// @param first_ms where counting begins: zero but in tests of what happens after 49 days
+  SystemClock(SysTickRegisters& systick, ScbRegisters& scb, std::uint64_t first_ms = 0)
+      : systick_(systick),
+        scb_(scb),
+        low_(static_cast<std::uint32_t>(first_ms)),
+        high_(static_cast<std::uint32_t>(first_ms >> 32)) {}
 
   /// From here on time passes. @param core_Hz whole megahertz
   void start(std::uint32_t core_Hz) {
@@ -45,8 +50,8 @@ class SystemClock final : public hal::Clock {
   std::uint32_t cycles_per_us_ = 1;
   std::uint32_t reload_ = 0;
   // Milliseconds; in two words, as the interrupt cannot change more at a time.
-  volatile std::uint32_t low_ = 0;
-  volatile std::uint32_t high_ = 0;
+  volatile std::uint32_t low_;
+  volatile std::uint32_t high_;
 };
 
 }  // namespace hoof::firmware::stm32f405
