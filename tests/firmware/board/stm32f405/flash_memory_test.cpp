@@ -122,6 +122,13 @@ TEST_CASE("flash: a controller that cannot be unlocked fails and is not written 
   CHECK(sim.erased_sectors.empty());
 }
 
+TEST_CASE("flash: one that stands unlocked, as a debugger may leave it, is not locked up by the keys") {
+  SimulatedFlash sim;
+  sim.registers.CR.store(0);
+  CHECK(sim.memory.program(0, 0, 1) == FlashResult::kOk);
+  CHECK(sim.memory.program(0, 1, 2) == FlashResult::kOk);
+}
+
 TEST_CASE("flash: parameters are stored and come back") {
   SimulatedFlash sim;
   app::ParameterStore store(sim.memory, {0, 1});
