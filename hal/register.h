@@ -53,10 +53,18 @@ class Register {
   [[gnu::always_inline]] void change(std::uint32_t clear, std::uint32_t set) {
     write((read() & ~clear) | set);
   }
-  [[gnu::always_inline]] void set(std::uint32_t bits) { change(0, bits); }
-  [[gnu::always_inline]] void clear(std::uint32_t bits) { change(bits, 0); }
-  [[gnu::always_inline]] bool has(std::uint32_t bits) const { return (read() & bits) == bits; }
-  [[gnu::always_inline]] bool has_any(std::uint32_t bits) const { return (read() & bits) != 0; }
+  [[gnu::always_inline]] void set(std::uint32_t bits) {
+    change(0, bits);
+  }
+  [[gnu::always_inline]] void clear(std::uint32_t bits) {
+    change(bits, 0);
+  }
+  [[gnu::always_inline]] bool has(std::uint32_t bits) const {
+    return (read() & bits) == bits;
+  }
+  [[gnu::always_inline]] bool has_any(std::uint32_t bits) const {
+    return (read() & bits) != 0;
+  }
 
  private:
 #if defined(__arm__)

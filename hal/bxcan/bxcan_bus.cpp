@@ -150,8 +150,8 @@ BusStatus BxCanBus::status() const {
   BusStatus status;
   if (state_ != State::kDown) {
     const std::uint32_t errors = registers_.ESR.read();
-    status.bus_off = (errors & esr::kBusOff) != 0 || state_ == State::kBackOff ||
-                     state_ == State::kResetting;
+    status.bus_off =
+        (errors & esr::kBusOff) != 0 || state_ == State::kBackOff || state_ == State::kResetting;
     status.error_passive = (errors & esr::kErrorPassive) != 0;
     status.transmit_error_count = esr::transmit_errors(errors);
     status.receive_error_count = esr::receive_errors(errors);

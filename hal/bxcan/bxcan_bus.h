@@ -1,16 +1,16 @@
 // A CAN bus through the bxCAN peripheral of an STM32.
 //
 // Sending. Three mailboxes; the peripheral sends the smallest identifier first (MCR.TXFP = 0) and,
-// of equal ones, the lower mailbox. So that equal identifiers leave in the order of sending, a frame
-// never goes into a mailbox below one that holds its identifier; rather, the bus is full.
+// of equal ones, the lower mailbox. So that equal identifiers leave in the order of sending, a
+// frame never goes into a mailbox below one that holds its identifier; rather, the bus is full.
 //
 // Receiving. FIFO 0 is for what is urgent (the e-stop), FIFO 1 for the rest; the interrupts empty
 // both into one queue of 32 frames, whose last places are for FIFO 0.
 //
 // Bus-off. The peripheral's own recovery (ABOM) would be back after 128 idle sequences, about a
 // millisecond, and a node with a broken transceiver would disturb the bus for ever. Here it waits
-// 100 ms before it joins again, twice as long each time up to 3.2 s, and starts at 100 ms again only
-// after 10 s on the bus. Frames that waited are dropped: they would be old news.
+// 100 ms before it joins again, twice as long each time up to 3.2 s, and starts at 100 ms again
+// only after 10 s on the bus. Frames that waited are dropped: they would be old news.
 #pragma once
 
 #include <cstddef>
@@ -53,8 +53,8 @@ class BxCanBus final : public CanBus {
 
  private:
   enum class State : std::uint8_t {
-    kDown,       // not started, or no such peripheral
-    kJoining,    // waits for eleven recessive bits, after bus-off for 128 times as many
+    kDown,     // not started, or no such peripheral
+    kJoining,  // waits for eleven recessive bits, after bus-off for 128 times as many
     kOn,
     kBackOff,    // bus-off, waiting
     kResetting,  // bus-off is over; the peripheral is asked to forget it

@@ -16,9 +16,9 @@ inline constexpr std::size_t kBanksPerController = kFilterBanks / 2;
 class FilterSetup {
  public:
   explicit FilterSetup(Registers& can1) : can1_(can1) {
-    can1_.FMR.change(fmr::kFirstBankOfCan2Mask,
-                     fmr::kInitialisation |
-                         (std::uint32_t{kBanksPerController} << fmr::kFirstBankOfCan2Shift));
+    can1_.FMR.change(
+        fmr::kFirstBankOfCan2Mask,
+        fmr::kInitialisation | (std::uint32_t{kBanksPerController} << fmr::kFirstBankOfCan2Shift));
     can1_.FA1R.write(0);
     can1_.FM1R.write(0);                          // all banks: identifier and mask
     can1_.FS1R.write((1u << kFilterBanks) - 1u);  // all banks: one filter of 32 bits

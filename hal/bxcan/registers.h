@@ -73,31 +73,39 @@ inline constexpr std::uint32_t kErrorInterrupt = 1u << 2;  // ERRI, cleared by w
 }  // namespace msr
 
 namespace tsr {
-constexpr std::uint32_t request_completed(std::size_t mailbox) { return 1u << (8 * mailbox); }
-constexpr std::uint32_t transmission_ok(std::size_t mailbox) { return 2u << (8 * mailbox); }
-constexpr std::uint32_t abort(std::size_t mailbox) { return 0x80u << (8 * mailbox); }
-constexpr std::uint32_t empty(std::size_t mailbox) { return 1u << (26 + mailbox); }
+constexpr std::uint32_t request_completed(std::size_t mailbox) {
+  return 1u << (8 * mailbox);
+}
+constexpr std::uint32_t transmission_ok(std::size_t mailbox) {
+  return 2u << (8 * mailbox);
+}
+constexpr std::uint32_t abort(std::size_t mailbox) {
+  return 0x80u << (8 * mailbox);
+}
+constexpr std::uint32_t empty(std::size_t mailbox) {
+  return 1u << (26 + mailbox);
+}
 inline constexpr std::uint32_t kAbortAll = abort(0) | abort(1) | abort(2);
 }  // namespace tsr
 
 namespace rfr {
-inline constexpr std::uint32_t kPending = 0x3;          // FMP, number of frames
-inline constexpr std::uint32_t kOverrun = 1u << 4;      // FOVR, cleared by writing 1
-inline constexpr std::uint32_t kRelease = 1u << 5;      // RFOM
+inline constexpr std::uint32_t kPending = 0x3;      // FMP, number of frames
+inline constexpr std::uint32_t kOverrun = 1u << 4;  // FOVR, cleared by writing 1
+inline constexpr std::uint32_t kRelease = 1u << 5;  // RFOM
 }  // namespace rfr
 
 namespace ier {
-inline constexpr std::uint32_t kMailboxEmpty = 1u << 0;      // TMEIE
-inline constexpr std::uint32_t kFifo0Pending = 1u << 1;      // FMPIE0
-inline constexpr std::uint32_t kFifo1Pending = 1u << 4;      // FMPIE1
-inline constexpr std::uint32_t kBusOff = 1u << 10;           // BOFIE
-inline constexpr std::uint32_t kLastErrorCode = 1u << 11;    // LECIE
-inline constexpr std::uint32_t kErrors = 1u << 15;           // ERRIE
+inline constexpr std::uint32_t kMailboxEmpty = 1u << 0;    // TMEIE
+inline constexpr std::uint32_t kFifo0Pending = 1u << 1;    // FMPIE0
+inline constexpr std::uint32_t kFifo1Pending = 1u << 4;    // FMPIE1
+inline constexpr std::uint32_t kBusOff = 1u << 10;         // BOFIE
+inline constexpr std::uint32_t kLastErrorCode = 1u << 11;  // LECIE
+inline constexpr std::uint32_t kErrors = 1u << 15;         // ERRIE
 }  // namespace ier
 
 namespace esr {
-inline constexpr std::uint32_t kErrorPassive = 1u << 1;  // EPVF
-inline constexpr std::uint32_t kBusOff = 1u << 2;        // BOFF
+inline constexpr std::uint32_t kErrorPassive = 1u << 1;   // EPVF
+inline constexpr std::uint32_t kBusOff = 1u << 2;         // BOFF
 inline constexpr std::uint32_t kLastErrorCode = 7u << 4;  // LEC; 7 is written by software: none yet
 inline constexpr std::uint32_t kNoErrorYet = 7u << 4;
 constexpr std::uint8_t transmit_errors(std::uint32_t esr) {

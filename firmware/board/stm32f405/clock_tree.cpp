@@ -4,9 +4,10 @@ namespace hoof::firmware::stm32f405 {
 namespace {
 
 // A look takes at least 8 cycles of 16 MHz, 0.5 us.
-/// A crystal starts in 2 ms as a rule (DS8626, table 35); this is 100 ms at least.
+/// A crystal starts in 2 ms as a rule (DS8626, HSE characteristics); this is 100 ms at least.
 constexpr std::uint32_t kCrystalTries = 200'000;
-/// The PLL locks in 0.3 ms at most (DS8626, table 38), the switch in a few cycles; this is 2.5 ms.
+/// The PLL locks in 0.3 ms at most (DS8626, PLL characteristics), the switch in a
+/// few cycles; this is 2.5 ms.
 constexpr std::uint32_t kPllTries = 5'000;
 
 // 2 MHz into the PLL, as RM0090 7.3.2 recommends against jitter; 336 MHz; 168 MHz and 48 MHz out.
@@ -19,7 +20,8 @@ constexpr std::uint32_t kCaches = flash::kPrefetch | flash::kInstructionCache | 
 
 bool start_crystal(RccRegisters& rcc) {
   rcc.CR.set(rcc::kCrystalOn);
-  if (hal::wait_until(kCrystalTries, [&rcc] { return rcc.CR.has(rcc::kCrystalReady); })) return true;
+  if (hal::wait_until(kCrystalTries, [&rcc] { return rcc.CR.has(rcc::kCrystalReady); }))
+    return true;
   rcc.CR.clear(rcc::kCrystalOn);
   return false;
 }
@@ -27,8 +29,7 @@ bool start_crystal(RccRegisters& rcc) {
 bool start_pll(RccRegisters& rcc, FlashRegisters& flash, std::uint32_t configuration) {
   rcc.PLLCFGR.write(configuration);
   rcc.CR.set(rcc::kPllOn);
-  const bool locked =
-      hal::wait_until(kPllTries, [&rcc] { return rcc.CR.has(rcc::kPllReady); });
+  const bool locked = hal::wait_until(kPllTries, [&rcc] { return rcc.CR.has(rcc::kPllReady); });
   // Slow flash before the fast clock: without its wait states the core would fetch rubbish.
   flash.ACR.change(flash::kLatencyMask, flash::kLatency168MHz | kCaches);
   const bool slowed = hal::wait_until(kPllTries, [&flash] {
@@ -40,9 +41,8 @@ bool start_pll(RccRegisters& rcc, FlashRegisters& flash, std::uint32_t configura
   }
   rcc.CFGR.write(rcc::kApb1By4 | rcc::kApb2By2);
   rcc.CFGR.change(rcc::kSwitchMask, rcc::kSwitchPll);
-  return hal::wait_until(kPllTries, [&rcc] {
-    return (rcc.CFGR.read() & rcc::kSwitchedMask) == rcc::kSwitchedPll;
-  });
+  return hal::wait_until(
+      kPllTries, [&rcc] { return (rcc.CFGR.read() & rcc::kSwitchedMask) == rcc::kSwitchedPll; });
 }
 
 void fall_back_to_internal(RccRegisters& rcc) {
@@ -54,6 +54,7 @@ void fall_back_to_internal(RccRegisters& rcc) {
 
 Clocks start_clocks(RccRegisters& rcc, PwrRegisters& pwr, FlashRegisters& flash) {
   rcc.APB1ENR.set(rcc::kPower);
+  rcc.APB1ENR.read();  // a peripheral answers some cycles after its clock was switched on (ES0182)
   pwr.CR.set(pwr::kFullVoltage);
   if (start_crystal(rcc) && start_pll(rcc, flash, kPllOf8MHz)) {
     rcc.CR.set(rcc::kCrystalWatched);

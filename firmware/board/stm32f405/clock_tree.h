@@ -30,10 +30,11 @@ Clocks start_clocks(RccRegisters& rcc, PwrRegisters& pwr, FlashRegisters& flash)
 /// BTR of a bxCAN for 1 Mbit/s, or nothing where this clock must not drive a bus.
 ///
 /// 42 MHz: BRP 3, 1 + 11 + 2 time quanta, sample point 85.7 %, SJW 2. That tolerates an oscillator
-/// error of SJW / (20 * 14) = 0.71 % (Bosch, CAN specification 2.0, 9; condition 1). The internal
-/// oscillator is within 1 % at 25 C and within 4 % from -10 to 85 C (DS8626, table 37): a node on it
-/// would destroy the frames of others, the e-stop's among them. So without crystal the foot stays
-/// off the bus, and the drives' own time-out of 20 ms holds.
+/// error of min(SJW / (20 * 14), 2 / (2 * (13 * 14 - 2))) = 0.56 % (Hartwich and Bassemir, "The
+/// configuration of the CAN bit timing", 1999). The internal oscillator is within 1 % at 25 C and
+/// within 4 % from -10 to 85 C (DS8626, HSI characteristics): a node on it would destroy the frames
+/// of others, the e-stop's among them. So without crystal the foot stays off the bus, and the
+/// drives' own time-out of 20 ms holds.
 std::optional<std::uint32_t> can_bit_timing(const Clocks& clocks);
 
 }  // namespace hoof::firmware::stm32f405

@@ -48,9 +48,13 @@ void open_record() {
 
 }  // namespace
 
-bool CrashRecord::whole() const { return magic == kMagic && crc == crc_of(*this); }
+bool CrashRecord::whole() const {
+  return magic == kMagic && crc == crc_of(*this);
+}
 
-const CrashRecord& crash_record() { return record; }
+const CrashRecord& crash_record() {
+  return record;
+}
 
 void panic(Panic reason) {
   asm volatile("cpsid i" ::: "memory");
@@ -93,10 +97,16 @@ extern "C" {
 }
 
 // What the compiler and the C++ library call where a program has gone wrong.
-[[noreturn]] void abort() { panic(Panic::kAborted); }
-[[noreturn]] void __cxa_pure_virtual() { panic(Panic::kPureVirtualCall); }
+[[noreturn]] void abort() {
+  panic(Panic::kAborted);
+}
+[[noreturn]] void __cxa_pure_virtual() {
+  panic(Panic::kPureVirtualCall);
+}
 /// Destructors of static objects never run: main() does not end.
-int __aeabi_atexit(void*, void (*)(void*), void*) { return 0; }
+int __aeabi_atexit(void*, void (*)(void*), void*) {
+  return 0;
+}
 void* __dso_handle = nullptr;
 }
 

@@ -7,7 +7,7 @@ namespace hoof::firmware::stm32f405 {
 
 /// Ends of the firmware's own making.
 enum class Panic : std::uint32_t {
-  kAborted = 1,         // abort(), also from the C++ library's own checks
+  kAborted = 1,  // abort(), also from the C++ library's own checks
   kPureVirtualCall = 2,
   kMainEnded = 3,
 };
@@ -24,12 +24,12 @@ struct CrashRecord {
   std::uint32_t pc;         // where it happened; 0 where the frame could not be pushed
   std::uint32_t lr;
   std::uint32_t psr;
-  std::uint32_t sp;         // of the frame; below the stack: it overflowed
+  std::uint32_t sp;  // of the frame; below the stack: it overflowed
   std::uint32_t cfsr;
   std::uint32_t hfsr;
-  std::uint32_t mmfar;      // address of a memory fault, valid as CFSR says
-  std::uint32_t bfar;       // of a bus fault
-  std::uint32_t crc;        // CRC-32 of all words before
+  std::uint32_t mmfar;  // address of a memory fault, valid as CFSR says
+  std::uint32_t bfar;   // of a bus fault
+  std::uint32_t crc;    // CRC-32 of all words before
 
   bool whole() const;
 };

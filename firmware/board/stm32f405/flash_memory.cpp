@@ -83,7 +83,7 @@ HOOF_IN_RAM void FlashMemory::wait_for_erase(std::uint32_t command) {
   }
 }
 
-/// The data cache may still hold words from before the erase (RM0090, 3.6.3).
+/// The data cache may still hold words from before the erase (RM0090, 3.6).
 void FlashMemory::forget_cached_data() {
   if (!registers_.ACR.has(flash::kDataCache)) return;
   registers_.ACR.clear(flash::kDataCache);

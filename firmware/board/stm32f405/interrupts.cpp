@@ -28,15 +28,33 @@ void enable_interrupts(NvicRegisters& nvic, ScbRegisters& scb) {
 }
 
 extern "C" {
-void hoof_tick() { system().clock.on_tick(); }
-void hoof_can1_transmit() { system().bus0.on_transmit_interrupt(); }
-void hoof_can1_receive0() { system().bus0.on_receive_interrupt(0, system().clock.now_ns()); }
-void hoof_can1_receive1() { system().bus0.on_receive_interrupt(1, system().clock.now_ns()); }
-void hoof_can1_status() { system().bus0.on_status_interrupt(); }
-void hoof_can2_transmit() { system().bus1.on_transmit_interrupt(); }
-void hoof_can2_receive0() { system().bus1.on_receive_interrupt(0, system().clock.now_ns()); }
-void hoof_can2_receive1() { system().bus1.on_receive_interrupt(1, system().clock.now_ns()); }
-void hoof_can2_status() { system().bus1.on_status_interrupt(); }
+void hoof_tick() {
+  system().clock.on_tick();
+}
+void hoof_can1_transmit() {
+  system().bus0.on_transmit_interrupt();
+}
+void hoof_can1_receive0() {
+  system().bus0.on_receive_interrupt(0, system().clock.now_ns());
+}
+void hoof_can1_receive1() {
+  system().bus0.on_receive_interrupt(1, system().clock.now_ns());
+}
+void hoof_can1_status() {
+  system().bus0.on_status_interrupt();
+}
+void hoof_can2_transmit() {
+  system().bus1.on_transmit_interrupt();
+}
+void hoof_can2_receive0() {
+  system().bus1.on_receive_interrupt(0, system().clock.now_ns());
+}
+void hoof_can2_receive1() {
+  system().bus1.on_receive_interrupt(1, system().clock.now_ns());
+}
+void hoof_can2_status() {
+  system().bus1.on_status_interrupt();
+}
 }
 
 }  // namespace hoof::firmware::stm32f405

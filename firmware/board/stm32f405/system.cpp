@@ -24,7 +24,9 @@ System the_system{
 
 }  // namespace
 
-System& system() { return the_system; }
+System& system() {
+  return the_system;
+}
 
 void System::start() {
   watchdog.start(Watchdog::Time::kStart);
@@ -33,6 +35,7 @@ void System::start() {
   clock.start(clocks.core_Hz);
   rcc_registers().AHB1ENR.set(rcc::kPortB);
   rcc_registers().APB1ENR.set(rcc::kCan1 | rcc::kCan2);
+  rcc_registers().APB1ENR.read();  // a peripheral answers some cycles later (ES0182)
   configure_pins(port_b());
   set_can_filters(can1_registers());
   if (const std::optional<std::uint32_t> timing = can_bit_timing(clocks)) {

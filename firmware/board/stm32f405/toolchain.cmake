@@ -15,7 +15,7 @@ string(JOIN " " CMAKE_CXX_FLAGS_INIT
   # Each function's stack, for the bound over the whole image.
   -fcallgraph-info=su
   # Lines for a crash record's addresses (addr2line); the same bytes wherever source and build lie.
-  -g1 -ffile-prefix-map=${hoof_root}=. -ffile-prefix-map=${CMAKE_BINARY_DIR}=build)
+  -g1 \"-ffile-prefix-map=${hoof_root}=.\" \"-ffile-prefix-map=${CMAKE_BINARY_DIR}=build\")
 
 string(JOIN " " CMAKE_EXE_LINKER_FLAGS_INIT
   -nostdlib -nostartfiles -static -Wl,--gc-sections -Wl,--fatal-warnings -Wl,--build-id=none)

@@ -19,7 +19,8 @@ constexpr std::uint32_t time_us(Setting setting, std::uint32_t oscillator_Hz) {
 constexpr Setting kTick{0, 234};
 constexpr Setting kStart{4, 734};
 static_assert(time_us(kTick, kFastest_Hz) == 20'000 && time_us(kTick, kSlowest_Hz) == 55'294);
-static_assert(time_us(kStart, kFastest_Hz) == 1'000'851 && time_us(kStart, kSlowest_Hz) < 2'800'000);
+static_assert(time_us(kStart, kFastest_Hz) == 1'000'851 &&
+              time_us(kStart, kSlowest_Hz) < 2'800'000);
 static_assert(kStart.reload <= iwdg::kLargestReload);
 
 /// An earlier change takes up to five of the slow oscillator's cycles, 0.3 ms.

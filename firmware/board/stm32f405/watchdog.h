@@ -7,7 +7,8 @@
 
 namespace hoof::firmware::stm32f405 {
 
-/// Runs on an RC oscillator of its own, of 17 to 47 kHz (DS8626, table 40): each time is a range.
+/// Runs on an RC oscillator of its own, of 17 to 47 kHz (DS8626, LSI
+/// characteristics): each time is a range.
 /// Once started nothing but a reset stops it.
 class Watchdog {
  public:

@@ -25,7 +25,9 @@ CanFrame data_frame(std::uint32_t id, std::initializer_list<std::uint8_t> bytes 
   return frame;
 }
 
-constexpr std::uint32_t standard(std::uint32_t id) { return id << 21; }
+constexpr std::uint32_t standard(std::uint32_t id) {
+  return id << 21;
+}
 
 struct Rig {
   SimulatedBxCan can;
@@ -45,7 +47,8 @@ struct Rig {
 
 }  // namespace
 
-TEST_CASE("bxCAN starts with the timing given, in initialisation, and without recovery of its own") {
+TEST_CASE(
+    "bxCAN starts with the timing given, in initialisation, and without recovery of its own") {
   Rig rig;
   CHECK(rig.bus.send(data_frame(1)) == SendResult::kDown);
   REQUIRE(rig.bus.start(kTiming));
@@ -122,7 +125,7 @@ TEST_CASE("bxCAN keeps frames of one identifier in the order of sending") {
   // An exit frame must not overtake the command before it, nor be overtaken by one after it.
   Rig rig;
   rig.join();
-  REQUIRE(rig.bus.send(data_frame(0x010)) == SendResult::kQueued);     // mailbox 0
+  REQUIRE(rig.bus.send(data_frame(0x010)) == SendResult::kQueued);       // mailbox 0
   REQUIRE(rig.bus.send(data_frame(0x021, {1})) == SendResult::kQueued);  // mailbox 1
   REQUIRE(rig.can.transmit()->identifier == standard(0x010));            // 0 is empty again
   REQUIRE(rig.bus.send(data_frame(0x021, {2})) == SendResult::kQueued);  // above, not into 0
@@ -257,8 +260,8 @@ TEST_CASE("bxCAN: a flood that nobody reads does not keep the e-stop out") {
   }
   rig.can.receive(0, {standard(0x001), 0, 0, 0});
   rig.bus.on_receive_interrupt(0, 100);
-  const std::uint64_t kept = hal::bxcan::ReceiveQueue::kSize -
-                             hal::bxcan::ReceiveQueue::kUrgentPlaces;
+  const std::uint64_t kept =
+      hal::bxcan::ReceiveQueue::kSize - hal::bxcan::ReceiveQueue::kUrgentPlaces;
   CHECK(rig.bus.status().dropped == 100 - kept);
   CanFrame frame;
   for (std::uint64_t i = 0; i < kept; ++i) {
@@ -350,7 +353,7 @@ TEST_CASE("bxCAN filters: what is listed, for the controller and the FIFO said, 
     const auto second = can.filtered(1, standard(id));
     REQUIRE(first.has_value() == (id == 0x001 || id == 0x010));
     REQUIRE(second.has_value() == (id == 0x010 || id == 0x7FF));
-    REQUIRE(can.filtered(0, standard(id) | 2) == first);            // remote frames likewise
+    REQUIRE(can.filtered(0, standard(id) | 2) == first);           // remote frames likewise
     REQUIRE_FALSE(can.filtered(0, standard(id) | 4).has_value());  // extended frames never
   }
   CHECK(can.filtered(0, standard(0x001)) == 0);

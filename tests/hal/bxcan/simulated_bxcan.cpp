@@ -16,7 +16,9 @@ SimulatedBxCan::SimulatedBxCan() {
   hal::Register::watcher = this;
 }
 
-SimulatedBxCan::~SimulatedBxCan() { hal::Register::watcher = nullptr; }
+SimulatedBxCan::~SimulatedBxCan() {
+  hal::Register::watcher = nullptr;
+}
 
 std::uint32_t SimulatedBxCan::on_read(hal::Register& accessed) {
   ++reads;

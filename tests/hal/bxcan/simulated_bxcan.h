@@ -1,5 +1,5 @@
-// A bxCAN peripheral for tests: what its registers do, after RM0090, 32.7 to 32.9. No wire: the test
-// says when a frame goes out, comes in, or fails.
+// A bxCAN peripheral for tests: what its registers do, after RM0090, 32.7 to 32.9. No wire: the
+// test says when a frame goes out, comes in, or fails.
 #pragma once
 
 #include <deque>
@@ -25,8 +25,8 @@ class SimulatedBxCan final : public hal::RegisterWatcher {
   SimulatedBxCan(const SimulatedBxCan&) = delete;
 
   hal::bxcan::Registers registers;
-  bool present = true;             // else its registers read 0 and forget what is written
-  bool hears_idle_bus = true;      // else it never leaves initialisation
+  bool present = true;         // else its registers read 0 and forget what is written
+  bool hears_idle_bus = true;  // else it never leaves initialisation
   std::size_t reads = 0;
   std::vector<std::string> faults;  // what software may not do
 

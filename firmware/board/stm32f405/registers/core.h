@@ -76,7 +76,9 @@ inline constexpr std::uint32_t kFpuAccess = 0xFu << 20;
 namespace mpu {
 inline constexpr std::uint32_t kOnWithDefaultMap = 1u << 0 | 1u << 2;  // CTRL
 /// RASR of a region of 2^bits bytes that nobody may touch.
-constexpr std::uint32_t no_access(std::uint32_t bits) { return 1u << 28 | (bits - 1) << 1 | 1u; }
+constexpr std::uint32_t no_access(std::uint32_t bits) {
+  return 1u << 28 | (bits - 1) << 1 | 1u;
+}
 }  // namespace mpu
 
 }  // namespace hoof::firmware::stm32f405

@@ -25,7 +25,7 @@ namespace flash {
 
 // ACR
 inline constexpr std::uint32_t kLatencyMask = 7u;
-inline constexpr std::uint32_t kLatency168MHz = 5u;  // at 2.7 to 3.6 V, table 10
+inline constexpr std::uint32_t kLatency168MHz = 5u;  // at 2.7 to 3.6 V (RM0090, 3.5.1)
 inline constexpr std::uint32_t kPrefetch = 1u << 8;
 inline constexpr std::uint32_t kInstructionCache = 1u << 9;
 inline constexpr std::uint32_t kDataCache = 1u << 10;
@@ -42,8 +42,8 @@ inline constexpr std::uint32_t kWriteProtected = 1u << 4;
 inline constexpr std::uint32_t kAlignmentError = 1u << 5;
 inline constexpr std::uint32_t kParallelismError = 1u << 6;
 inline constexpr std::uint32_t kSequenceError = 1u << 7;
-inline constexpr std::uint32_t kErrors = kOperationError | kWriteProtected | kAlignmentError |
-                                         kParallelismError | kSequenceError;
+inline constexpr std::uint32_t kErrors =
+    kOperationError | kWriteProtected | kAlignmentError | kParallelismError | kSequenceError;
 inline constexpr std::uint32_t kBusy = 1u << 16;
 
 // CR

@@ -13,7 +13,7 @@
 namespace hoof::firmware::stm32f405 {
 
 struct GpioRegisters {
-  hal::Register MODER;    // 2 bits a pin: 0 input, 1 output, 2 alternate function, 3 analog
+  hal::Register MODER;  // 2 bits a pin: 0 input, 1 output, 2 alternate function, 3 analog
   hal::Register OTYPER;
   hal::Register OSPEEDR;  // 2 bits a pin
   hal::Register PUPDR;    // 2 bits a pin: 1 pull-up, 2 pull-down

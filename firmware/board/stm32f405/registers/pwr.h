@@ -16,9 +16,9 @@ struct PwrRegisters {
 };
 
 namespace pwr {
-inline constexpr std::uint32_t kDetectorOn = 1u << 4;      // CR PVDE
-inline constexpr std::uint32_t kDetector2V9 = 7u << 5;     // CR PLS, the highest level
-inline constexpr std::uint32_t kFullVoltage = 1u << 14;    // CR VOS: needed above 144 MHz
-inline constexpr std::uint32_t kSupplyBelow = 1u << 2;     // CSR PVDO
+inline constexpr std::uint32_t kDetectorOn = 1u << 4;    // CR PVDE
+inline constexpr std::uint32_t kDetector2V9 = 7u << 5;   // CR PLS, the highest level
+inline constexpr std::uint32_t kFullVoltage = 1u << 14;  // CR VOS: needed above 144 MHz
+inline constexpr std::uint32_t kSupplyBelow = 1u << 2;   // CSR PVDO
 }  // namespace pwr
 }  // namespace hoof::firmware::stm32f405

@@ -39,9 +39,9 @@ TEST_CASE("flash: programs a word, clears bits only, and is locked before and af
 }
 
 TEST_CASE("flash: each error of the device is reported, and the next operation is not hindered") {
-  const std::uint32_t error = GENERATE(flash::kOperationError, flash::kWriteProtected,
-                                       flash::kAlignmentError, flash::kParallelismError,
-                                       flash::kSequenceError);
+  const std::uint32_t error =
+      GENERATE(flash::kOperationError, flash::kWriteProtected, flash::kAlignmentError,
+               flash::kParallelismError, flash::kSequenceError);
   CAPTURE(error);
   SimulatedFlash sim;
   sim.next_error = error;
@@ -69,8 +69,7 @@ TEST_CASE("flash: erases the sector meant, with the watchdog's long time and bac
     for (std::size_t s = 0; s < 3; ++s) {
       CHECK(sim.memory.read(s, 9) == (s == sector ? 0xFFFF'FFFF : 0));
     }
-    CHECK(sim.watchdog_log ==
-          std::vector<std::string>{"reload 734", "feed", "reload 234", "feed"});
+    CHECK(sim.watchdog_log == std::vector<std::string>{"reload 734", "feed", "reload 234", "feed"});
     CHECK((sim.registers.CR.stored() & flash::kLock) != 0);
     // The data cache is on again, and was reset while it was off.
     CHECK((sim.registers.ACR.stored() & flash::kDataCache) != 0);
@@ -122,7 +121,8 @@ TEST_CASE("flash: a controller that cannot be unlocked fails and is not written 
   CHECK(sim.erased_sectors.empty());
 }
 
-TEST_CASE("flash: one that stands unlocked, as a debugger may leave it, is not locked up by the keys") {
+TEST_CASE(
+    "flash: one that stands unlocked, as a debugger may leave it, is not locked up by the keys") {
   SimulatedFlash sim;
   sim.registers.CR.store(0);
   CHECK(sim.memory.program(0, 0, 1) == FlashResult::kOk);

@@ -34,7 +34,7 @@ TEST_CASE("board: each cause of a reset, with what the part sets besides") {
     std::uint32_t csr;
     ResetCause cause;
   };
-  // RM0090, 7.3.21 and figure 4: every reset drives the pin; switching on sets POR, BOR and PIN.
+  // RM0090, 7.1 and 7.3: every reset drives the pin; switching on sets POR, BOR and PIN.
   const Case cases[] = {
       {"power on", 0x0E00'0003, ResetCause::kPowerOn},
       {"brown-out", 0x0600'0003, ResetCause::kBrownOut},
@@ -113,12 +113,9 @@ TEST_CASE("board: the watchdog is unlocked for its settings, waited for, and fed
   rig.watchdog.start(Watchdog::Time::kTick);
   rig.board.feed_watchdog();
   using Log = std::vector<std::pair<std::string, std::uint32_t>>;
-  CHECK(log == Log{{"KR", 0xCCCC},
-                   {"KR", 0x5555},
-                   {"PR", 0},
-                   {"RLR", 234},
-                   {"KR", 0xAAAA},
-                   {"KR", 0xAAAA}});
+  CHECK(
+      log ==
+      Log{{"KR", 0xCCCC}, {"KR", 0x5555}, {"PR", 0}, {"RLR", 234}, {"KR", 0xAAAA}, {"KR", 0xAAAA}});
   CHECK(updating < 0);
   // An oscillator that never answers does not hold the start up.
   rig.access.when_read(rig.iwdg.SR, [](hal::Register&) { return 3u; });

@@ -40,8 +40,8 @@ SimulatedFlash::SimulatedFlash() {
 void SimulatedFlash::write_control(std::uint32_t value) {
   if ((registers.CR.stored() & flash::kLock) != 0) return;
   registers.CR.store(value & ~flash::kStart);
-  const bool erases = (value & (flash::kStart | flash::kSectorErase)) ==
-                      (flash::kStart | flash::kSectorErase);
+  const bool erases =
+      (value & (flash::kStart | flash::kSectorErase)) == (flash::kStart | flash::kSectorErase);
   if (!erases) return;
   erasing_ = static_cast<int>(value >> 3 & 0xF);
   erase_left_ms_ = erase_ms;

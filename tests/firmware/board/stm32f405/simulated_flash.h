@@ -1,4 +1,5 @@
-// The flash of an STM32F405 for tests: the lock, the sequences and the bits as RM0090, 3.6 has them.
+// The flash of an STM32F405 for tests: the lock, the sequences and the bits as RM0090, 3.6 has
+// them.
 #pragma once
 
 #include <string>
@@ -25,7 +26,7 @@ struct SimulatedFlash {
   FlashMemory memory{registers, words.data(), watchdog, clock};
 
   int erase_ms = 250;
-  std::uint32_t next_error = 0;     // bits of SR that the next operation raises
+  std::uint32_t next_error = 0;  // bits of SR that the next operation raises
   bool never_done = false;
   bool tick_runs = true;
   std::vector<int> erased_sectors;  // numbers of the part
