@@ -95,7 +95,7 @@ class CallGraph:
                     node.callees.add(callee)
                 continue
             register = self._called_register(mnemonic, operands)
-            if register is None:
+            if register is None or self._jumps_by_own_table(start, instructions, i):
                 continue
             loads = [instruction] if register == "pc" else flow.sources(i, register)
             known, targets = self._resolve(start, loads)
@@ -103,6 +103,17 @@ class CallGraph:
             if not known:
                 node.indirect.append((instruction.address, len(targets)))
         return node
+
+    def _jumps_by_own_table(self, start, instructions, i):
+        """Whether this is how a switch is compiled: `ldr pc` from a table of places in the same
+        function, which stands right behind it."""
+        table = re.search(r"pc, \[(r\d+), r\d+, lsl #2\]", instructions[i].operands)
+        if not table or i == 0:
+            return False
+        base = re.match(rf"{table[1]}, pc, #\d+\s+@ \(adr {table[1]}, ([0-9a-f]+) ",
+                        instructions[i - 1].operands)
+        word = self._image.word(int(base[1], 16)) if base else None
+        return word is not None and self._function_at(word & ~1) == start
 
     @staticmethod
     def _called_register(mnemonic, operands):

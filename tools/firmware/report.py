@@ -77,7 +77,7 @@ class Report:
             seen.add(symbol.address)
             folder = folder_of(self.image.demangled[symbol.name])
             sizes[folder] = sizes.get(folder, 0) + symbol.size
-        sizes["no name"] = total - sum(sizes.values())  # literals, strings, padding
+        sizes["unnamed"] = total - sum(sizes.values())  # texts, constants, padding
         print("  by folder (of each symbol's namespace)")
         for folder, size in sorted(sizes.items(), key=lambda item: -item[1]):
             print(f"    {folder:<14}{size:>8,}")

@@ -13,6 +13,9 @@ int main() {
   static app::ControlLoop loop({&system.bus0, &system.bus1}, system.clock, parameters);
   system.watchdog.set(stm32f405::Watchdog::Time::kTick);
   for (;;) {
+    if (system.board.emergency_stop_pressed() && loop.mode() != control::Mode::kEmergencyOff) {
+      loop.emergency_stop();
+    }
     loop.poll();
     system.board.feed_watchdog();
     system.rest();

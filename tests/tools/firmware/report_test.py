@@ -127,6 +127,16 @@ class ReportTest(unittest.TestCase):
             [[gnu::noinline]] void odd(int n) { if (n > 0) even(n - 1); sink = n + 1; }
             void hoof_start() { even(sink); }""", "recursion: ")
 
+    def test_a_switch_calls_nobody(self):
+        cases = "".join(f"case {i}: deep<{8 * i + 8}>(); sink = sink * {i} + 3; break;\n"
+                        for i in range(9)).replace("\n", "\nmore();\n")
+        status, output = self.report(f"""@frame
+            Handler volatile chosen = deep<5000>;
+            [[gnu::noinline]] void more() {{ sink = sink + 1; }}
+            void hoof_start() {{ switch (sink) {{ {cases} }} }}""")
+        self.assertEqual(status, 0, output)
+        self.assertIn("  0 calls through pointers", output)
+
     def test_a_frame_of_unknown_size(self):
         self.refused("""@frame
             [[gnu::noinline]] void any(int n) {
