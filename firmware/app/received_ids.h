@@ -2,10 +2,15 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "firmware/protocol/dictionary.h"
 
 namespace hoof::firmware::app {
+
+/// The one of them that must never be crowded out.
+inline constexpr std::uint32_t kEmergencyStopId =
+    protocol::spec(protocol::Message::kEmergencyStop).id;
 
 /// Calls visit(identifier) for every frame that the dictionary addresses to the foot on bus 0 or 1.
 template <typename Visit>

@@ -34,7 +34,7 @@ not_called() { ! called "$1"; }
 printed() { grep -qF -- "$1" "$scratch/output"; }
 exited() { [[ $status -eq $1 ]]; }
 hoof() { : >"$CALLS"; status=0; "$launcher" "$@" >"$scratch/output" 2>&1 || status=$?; }
-start_afresh() { rm -rf "$HOOF_BUILD_DIR" "$CALLS".*; awk '$1 == "build" || $1 == "test" { print $2 }' "$root/tools/packages.txt" >"$INSTALLED"; }
+start_afresh() { rm -rf "$HOOF_BUILD_DIR" "$CALLS".*; awk '$1 ~ /^(build|test|firmware)$/ { print $2 }' "$root/tools/packages.txt" >"$INSTALLED"; }
 
 # By a link and from another folder, as a user with ~/bin/hoof would.
 cd "$scratch"

@@ -1,0 +1,95 @@
+#include "firmware/board/stm32f405/flash_memory.h"
+
+#include "hal/interrupt_lock.h"
+
+#if defined(__arm__)
+/// Runs from RAM: the flash cannot be read while it erases itself.
+#define HOOF_IN_RAM [[gnu::section(".ramfunc"), gnu::noinline, gnu::long_call]]
+#else
+#define HOOF_IN_RAM
+#endif
+
+namespace hoof::firmware::stm32f405 {
+namespace {
+
+using hal::FlashResult;
+
+/// 100 us at most for a word; the core stalls in between, so that a look or two see the end of it.
+constexpr std::uint32_t kProgramTries = 20'000;
+
+/// The data sheet's worst is 500 ms; the watchdog's long time 1 s at least.
+constexpr std::uint32_t kLongestErase_ms = 800;
+/// Ends the wait where no tick comes. At 168 MHz a look takes some 20 cycles: 1 s.
+constexpr std::uint32_t kEraseTries = 8'000'000;
+
+}  // namespace
+
+FlashMemory::Word FlashMemory::read(std::size_t sector, std::size_t word) const {
+  return exists(sector, word) ? at(sector, word).read() : kErased;
+}
+
+FlashResult FlashMemory::program(std::size_t sector, std::size_t word, Word value) {
+  if (!exists(sector, word)) return FlashResult::kOutOfRange;
+  hal::Register& target = at(sector, word);
+  if ((value & ~target.read()) != 0) return FlashResult::kNeedsErase;
+  if (!unlock()) return FlashResult::kFailed;
+  registers_.CR.write(flash::kProgram | flash::kBy32Bits);
+  target.write(value);
+  return finish() && target.read() == value ? FlashResult::kOk : FlashResult::kFailed;
+}
+
+FlashResult FlashMemory::erase(std::size_t sector) {
+  if (sector >= kSectors) return FlashResult::kOutOfRange;
+  if (!unlock()) return FlashResult::kFailed;
+  watchdog_.set(Watchdog::Time::kStart);
+  const auto number = kFirstSector + static_cast<std::uint32_t>(sector);
+  wait_for_erase(flash::kSectorErase | flash::kBy32Bits | number << flash::kSectorShift);
+  const bool done = finish();
+  forget_cached_data();
+  watchdog_.set(Watchdog::Time::kTick);
+  return done ? FlashResult::kOk : FlashResult::kFailed;
+}
+
+/// Ready for an operation, errors of former ones forgotten.
+bool FlashMemory::unlock() {
+  const auto idle = [this] { return !registers_.SR.has(flash::kBusy); };
+  if (!hal::wait_until(kProgramTries, idle)) return false;
+  registers_.SR.write(flash::kErrors | flash::kEndOfOperation);
+  // Keys written to an unlocked register lock it until the next reset.
+  if (registers_.CR.has(flash::kLock)) {
+    registers_.KEYR.write(flash::kKey1);
+    registers_.KEYR.write(flash::kKey2);
+  }
+  return !registers_.CR.has(flash::kLock);
+}
+
+/// Waits for the end of the operation and locks again. @return whether it went well
+bool FlashMemory::finish() {
+  const auto idle = [this] { return !registers_.SR.has(flash::kBusy); };
+  const bool done = hal::wait_until(kProgramTries, idle);
+  const bool good = !registers_.SR.has_any(flash::kErrors);
+  registers_.CR.write(flash::kLock);
+  return done && good;
+}
+
+HOOF_IN_RAM void FlashMemory::wait_for_erase(std::uint32_t command) {
+  const hal::InterruptLock lock;  // their handlers are in flash
+  registers_.CR.write(command);
+  registers_.CR.write(command | flash::kStart);
+  std::uint32_t milliseconds = 0;
+  for (std::uint32_t i = 0; i < kEraseTries && milliseconds < kLongestErase_ms; ++i) {
+    if (!registers_.SR.has(flash::kBusy)) return;
+    if (clock_.take_pending_tick()) ++milliseconds;
+  }
+}
+
+/// The data cache may still hold words from before the erase (RM0090, 3.6).
+void FlashMemory::forget_cached_data() {
+  if (!registers_.ACR.has(flash::kDataCache)) return;
+  registers_.ACR.clear(flash::kDataCache);
+  registers_.ACR.set(flash::kDataCacheReset);
+  registers_.ACR.clear(flash::kDataCacheReset);
+  registers_.ACR.set(flash::kDataCache);
+}
+
+}  // namespace hoof::firmware::stm32f405

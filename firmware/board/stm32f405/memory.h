@@ -1,0 +1,34 @@
+// What the linker script knows: where memory begins and ends.
+#pragma once
+
+#include <cstdint>
+
+namespace hoof::firmware::stm32f405 {
+
+/// The stack lies at the bottom of RAM: growing too far it leaves RAM, instead of eating data.
+inline constexpr std::uintptr_t kStackBottom = 0x2000'0000;
+inline constexpr std::uintptr_t kStackBytes = 4096;
+inline constexpr std::uintptr_t kStackTop = kStackBottom + kStackBytes;
+
+/// What the stack holds where it was never used.
+inline constexpr std::uint32_t kStackPaint = 0xA5A5'A5A5;
+
+inline constexpr std::uintptr_t kVectors = 0x0800'0000;
+inline constexpr std::uintptr_t kParameters = 0x0800'4000;  // sectors 1 to 3
+
+extern "C" {
+// Their addresses are the values.
+extern std::uint32_t hoof_stack_bottom;
+extern std::uint32_t hoof_stack_top;
+extern std::uint32_t hoof_fault_stack_top;
+extern std::uint32_t hoof_data_start;
+extern std::uint32_t hoof_data_end;
+extern const std::uint32_t hoof_data_load;
+extern std::uint32_t hoof_bss_start;
+extern std::uint32_t hoof_bss_end;
+using Constructor = void (*)();
+extern const Constructor hoof_constructors_start;
+extern const Constructor hoof_constructors_end;
+}
+
+}  // namespace hoof::firmware::stm32f405

@@ -1,0 +1,36 @@
+#include "firmware/board/stm32f405/pins.h"
+
+namespace hoof::firmware::stm32f405 {
+namespace {
+
+constexpr std::uint32_t kAlternate = 2;
+constexpr std::uint32_t kFast = 2;
+constexpr std::uint32_t kPullUp = 1;
+constexpr std::uint32_t kPullDown = 2;
+constexpr std::uint32_t kCanFunction = 9;
+
+void set_field(hal::Register& target, std::uint32_t width, std::uint32_t index,
+               std::uint32_t value) {
+  const std::uint32_t mask = (1u << width) - 1;
+  target.change(mask << (width * index), value << (width * index));
+}
+
+/// Pull first, function last: the pin never drives or reads anything by chance.
+void configure_can(GpioRegisters& port, Pin pin) {
+  set_field(port.PUPDR, 2, pin.number, kPullUp);  // recessive where no transceiver is
+  set_field(port.OSPEEDR, 2, pin.number, kFast);
+  set_field(port.AFR[pin.number / 8], 4, pin.number % 8, kCanFunction);
+  set_field(port.MODER, 2, pin.number, kAlternate);
+}
+
+}  // namespace
+
+void configure_pins(GpioRegisters& port_b) {
+  for (const Pin pin : {kCan1ReceivePin, kCan1TransmitPin, kCan2ReceivePin, kCan2TransmitPin}) {
+    configure_can(port_b, pin);
+  }
+  set_field(port_b.PUPDR, 2, kEmergencyStopPin.number, kPullDown);
+  set_field(port_b.MODER, 2, kEmergencyStopPin.number, 0);
+}
+
+}  // namespace hoof::firmware::stm32f405

@@ -1,0 +1,26 @@
+// Which pins of port B do what.
+#pragma once
+
+#include <cstdint>
+
+#include "firmware/board/stm32f405/registers/gpio.h"
+
+namespace hoof::firmware::stm32f405 {
+
+struct Pin {
+  std::uint32_t number;
+  constexpr std::uint32_t bit() const { return 1u << number; }
+};
+
+// Alternate function 9 (DS8626, table 9).
+inline constexpr Pin kCan1ReceivePin{8};
+inline constexpr Pin kCan1TransmitPin{9};
+inline constexpr Pin kCan2ReceivePin{5};
+inline constexpr Pin kCan2TransmitPin{6};
+/// Also the break input of TIM1, so that one wire can stop this firmware and, one day, a timer.
+inline constexpr Pin kEmergencyStopPin{12};
+
+/// @pre the port has its clock
+void configure_pins(GpioRegisters& port_b);
+
+}  // namespace hoof::firmware::stm32f405

@@ -1,0 +1,205 @@
+#include "hal/bxcan/bxcan_bus.h"
+
+#include "hal/can_frame_check.h"
+#include "hal/interrupt_lock.h"
+
+namespace hoof::hal::bxcan {
+namespace {
+
+/// Entering initialisation takes a few bit times from sleep, at most a frame (130 us) from a live
+/// bus. At 168 MHz a look takes about 0.1 us.
+constexpr std::uint32_t kInitialisationTries = 20'000;
+
+/// The FIFO shows its next frame a few peripheral clocks after the last one was released.
+constexpr std::uint32_t kReleaseTries = 50;
+
+/// TTCM, ABOM, AWUM, NART, RFLM, TXFP off: no time stamps, no recovery of its own accord, repeat
+/// until acknowledged, a full FIFO keeps its newest frame, mailboxes by identifier.
+constexpr std::uint32_t kNormal = mcr::kDebugFreeze;
+constexpr std::uint32_t kInitialisation = kNormal | mcr::kInitialisationRequest;
+
+constexpr std::uint32_t kInterrupts = ier::kMailboxEmpty | ier::kFifo0Pending | ier::kFifo1Pending |
+                                      ier::kBusOff | ier::kLastErrorCode | ier::kErrors;
+
+constexpr std::uint32_t identifier_word(const CanFrame& frame) {
+  const std::uint32_t remote = frame.remote ? identifier::kRemote : 0;
+  if (!frame.extended) return (frame.id << identifier::kStandardShift) | remote;
+  return (frame.id << identifier::kExtendedShift) | identifier::kExtended | remote;
+}
+
+constexpr std::uint32_t four_bytes(const CanFrame& frame, std::size_t first) {
+  return static_cast<std::uint32_t>(frame.data[first]) |
+         static_cast<std::uint32_t>(frame.data[first + 1]) << 8 |
+         static_cast<std::uint32_t>(frame.data[first + 2]) << 16 |
+         static_cast<std::uint32_t>(frame.data[first + 3]) << 24;
+}
+
+void unpack(std::uint32_t word, CanFrame& frame, std::size_t first) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    frame.data[first + i] = static_cast<std::uint8_t>(word >> (8 * i));
+  }
+}
+
+CanFrame frame_of(const ReceivedFrame& received) {
+  CanFrame frame;
+  frame.extended = (received.identifier & identifier::kExtended) != 0;
+  frame.remote = (received.identifier & identifier::kRemote) != 0;
+  frame.id = received.identifier >>
+             (frame.extended ? identifier::kExtendedShift : identifier::kStandardShift);
+  const std::uint32_t code = received.length & 0xF;  // 9 to 15 also stand for 8 bytes
+  frame.length = static_cast<std::uint8_t>(code > 8 ? 8 : code);
+  if (!frame.remote) {
+    unpack(received.low, frame, 0);
+    unpack(received.high, frame, 4);
+  }
+  frame.stamp_ns = received.stamp_ns;
+  return frame;
+}
+
+}  // namespace
+
+bool BxCanBus::start(std::uint32_t bit_timing) {
+  state_ = State::kDown;
+  registers_.IER.write(0);
+  registers_.MCR.write(kInitialisation);  // also leaves sleep mode
+  if (!wait_until(kInitialisationTries,
+                  [this] { return registers_.MSR.has(msr::kInitialisation); })) {
+    return false;
+  }
+  registers_.BTR.write(bit_timing);
+  registers_.ESR.write(esr::kNoErrorYet);
+  registers_.IER.write(kInterrupts);
+  registers_.MCR.write(kNormal);
+  state_ = State::kJoining;
+  return true;
+}
+
+void BxCanBus::maintain(std::int64_t now_ns) {
+  switch (state_) {
+    case State::kDown:
+      return;
+    case State::kJoining:
+      if (registers_.MSR.has(msr::kInitialisation) || registers_.ESR.has(esr::kBusOff)) return;
+      joined_ns_ = now_ns;
+      state_ = State::kOn;
+      return;
+    case State::kOn:
+      if (registers_.ESR.has(esr::kBusOff)) return leave_bus(now_ns);
+      if (now_ns - joined_ns_ >= kSteady_ns) back_off_ns_ = kFirstBackOff_ns;
+      return;
+    case State::kBackOff:
+      if (now_ns < rejoin_ns_) return;
+      registers_.MCR.write(kInitialisation);
+      state_ = State::kResetting;
+      return;
+    case State::kResetting:
+      if (!registers_.MSR.has(msr::kInitialisation)) return;
+      registers_.MCR.write(kNormal);
+      state_ = State::kJoining;
+      return;
+  }
+}
+
+void BxCanBus::leave_bus(std::int64_t now_ns) {
+  registers_.TSR.write(tsr::kAbortAll);
+  rejoin_ns_ = now_ns + back_off_ns_;
+  back_off_ns_ = back_off_ns_ * 2 < kLongestBackOff_ns ? back_off_ns_ * 2 : kLongestBackOff_ns;
+  state_ = State::kBackOff;
+}
+
+SendResult BxCanBus::send(const CanFrame& frame) {
+  if (!can_exist(frame) || frame.fd) return SendResult::kInvalid;
+  if (state_ == State::kDown) return SendResult::kDown;
+  if (state_ != State::kOn || registers_.ESR.has(esr::kBusOff)) {
+    return status().bus_off ? SendResult::kBusOff : SendResult::kDown;
+  }
+  const std::uint32_t identifier = identifier_word(frame);
+  const std::size_t chosen = choose_mailbox(identifier);
+  if (chosen == kMailboxes) return SendResult::kFull;
+  Mailbox& mailbox = registers_.transmit[chosen];
+  mailbox.length.write(frame.length);
+  mailbox.low.write(four_bytes(frame, 0));
+  mailbox.high.write(four_bytes(frame, 4));
+  mailbox.identifier.write(identifier | identifier::kTransmit);
+  return SendResult::kQueued;
+}
+
+/// The first empty mailbox above all that hold the same identifier.
+std::size_t BxCanBus::choose_mailbox(std::uint32_t identifier) const {
+  const std::uint32_t status = registers_.TSR.read();
+  std::size_t chosen = kMailboxes;
+  for (std::size_t i = kMailboxes; i-- > 0;) {
+    if ((status & tsr::empty(i)) != 0) {
+      chosen = i;
+    } else if ((registers_.transmit[i].identifier.read() & ~identifier::kTransmit) == identifier) {
+      return chosen;
+    }
+  }
+  return chosen;
+}
+
+bool BxCanBus::receive(CanFrame& frame) {
+  ReceivedFrame received;
+  if (!queue_.take(received)) return false;
+  ++received_;
+  frame = frame_of(received);
+  return true;
+}
+
+BusStatus BxCanBus::status() const {
+  BusStatus status;
+  if (state_ != State::kDown) {
+    const std::uint32_t errors = registers_.ESR.read();
+    status.bus_off =
+        (errors & esr::kBusOff) != 0 || state_ == State::kBackOff || state_ == State::kResetting;
+    status.error_passive = (errors & esr::kErrorPassive) != 0;
+    status.transmit_error_count = esr::transmit_errors(errors);
+    status.receive_error_count = esr::receive_errors(errors);
+  }
+  status.received = received_;
+  const InterruptLock lock;  // two words each
+  status.sent = sent_;
+  status.dropped = dropped_;
+  status.error_frames = error_frames_;
+  return status;
+}
+
+void BxCanBus::on_receive_interrupt(std::size_t fifo, std::int64_t now_ns) {
+  Register& fifo_status = registers_.RFR[fifo];
+  for (std::uint32_t i = 0; i < kFifoDepth && fifo_status.has_any(rfr::kPending); ++i) {
+    take_frame(fifo, now_ns);
+    fifo_status.write(rfr::kRelease);
+    wait_until(kReleaseTries, [&fifo_status] { return !fifo_status.has(rfr::kRelease); });
+  }
+  if (fifo_status.has(rfr::kOverrun)) {
+    ++dropped_;  // one at least; the peripheral does not count them
+    fifo_status.write(rfr::kOverrun);
+  }
+}
+
+void BxCanBus::take_frame(std::size_t fifo, std::int64_t now_ns) {
+  const Mailbox& mailbox = registers_.receive[fifo];
+  const ReceivedFrame frame{mailbox.identifier.read(), mailbox.length.read(), mailbox.low.read(),
+                            mailbox.high.read(), now_ns};
+  if (!queue_.put(frame, fifo == kUrgentFifo)) ++dropped_;
+}
+
+void BxCanBus::on_transmit_interrupt() {
+  const std::uint32_t status = registers_.TSR.read();
+  for (std::size_t i = 0; i < kMailboxes; ++i) {
+    if ((status & tsr::request_completed(i)) == 0) continue;
+    if ((status & tsr::transmission_ok(i)) != 0) ++sent_;
+    registers_.TSR.write(tsr::request_completed(i));
+  }
+}
+
+void BxCanBus::on_status_interrupt() {
+  const std::uint32_t code = registers_.ESR.read() & esr::kLastErrorCode;
+  if (code != 0 && code != esr::kNoErrorYet) {
+    ++error_frames_;
+    registers_.ESR.write(esr::kNoErrorYet);
+  }
+  registers_.MSR.write(msr::kErrorInterrupt);
+}
+
+}  // namespace hoof::hal::bxcan

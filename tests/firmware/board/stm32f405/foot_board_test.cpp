@@ -1,0 +1,140 @@
+#include "firmware/board/stm32f405/foot_board.h"
+
+#include <catch2/catch.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "firmware/app/received_ids.h"
+#include "firmware/board/stm32f405/can_filters.h"
+#include "tests/firmware/board/stm32f405/simulated_registers.h"
+#include "tests/hal/bxcan/simulated_bxcan.h"
+
+using namespace hoof;
+using namespace hoof::firmware::stm32f405;
+using hal::ResetCause;
+
+namespace {
+
+struct Rig {
+  tests::SimulatedRegisters access;
+  RccRegisters rcc;
+  PwrRegisters pwr;
+  GpioRegisters port;
+  IwdgRegisters iwdg;
+  Watchdog watchdog{iwdg};
+  FootBoard board{rcc, pwr, port, watchdog};
+};
+
+}  // namespace
+
+TEST_CASE("board: each cause of a reset, with what the part sets besides") {
+  struct Case {
+    const char* what;
+    std::uint32_t csr;
+    ResetCause cause;
+  };
+  // RM0090, 7.1 and 7.3: every reset drives the pin; switching on sets POR, BOR and PIN.
+  const Case cases[] = {
+      {"power on", 0x0E00'0003, ResetCause::kPowerOn},
+      {"brown-out", 0x0600'0003, ResetCause::kBrownOut},
+      {"pin", 0x0400'0003, ResetCause::kPin},
+      {"software", 0x1400'0003, ResetCause::kSoftware},
+      {"independent watchdog", 0x2400'0003, ResetCause::kWatchdog},
+      {"window watchdog", 0x4400'0003, ResetCause::kWatchdog},
+      {"low power", 0x8400'0003, ResetCause::kSoftware},
+      {"none known", 0x0000'0003, ResetCause::kPowerOn},
+  };
+  for (const Case& c : cases) {
+    CAPTURE(c.what);
+    Rig rig;
+    rig.rcc.CSR.store(c.csr);
+    rig.board.start();
+    CHECK(rig.board.reset_cause() == c.cause);
+    CHECK((rig.rcc.CSR.stored() & rcc::kClearResetFlags) != 0);
+    CHECK((rig.rcc.CSR.stored() & 3) == 3);  // the watchdog's oscillator is left alone
+    rig.rcc.CSR.store(0);
+    CHECK(rig.board.reset_cause() == c.cause);
+  }
+}
+
+TEST_CASE("board: the e-stop's pin is low when pressed, cut or shorted to ground, pulled down") {
+  Rig rig;
+  configure_pins(rig.port);
+  rig.port.IDR.store(0xFFFF);
+  CHECK_FALSE(rig.board.emergency_stop_pressed());
+  rig.port.IDR.store(0xFFFF & ~(1u << 12));
+  CHECK(rig.board.emergency_stop_pressed());
+  rig.port.IDR.store(0);
+  CHECK(rig.board.emergency_stop_pressed());
+  CHECK((rig.port.PUPDR.stored() >> 24 & 3) == 2);
+  CHECK((rig.port.MODER.stored() >> 24 & 3) == 0);
+}
+
+TEST_CASE("board: the CAN pins have their function, the pins of the debugger keep theirs") {
+  Rig rig;
+  rig.port.MODER.store(0x0000'0280);  // after reset: PB3, PB4 are the debugger's
+  rig.port.PUPDR.store(0x0000'0100);
+  configure_pins(rig.port);
+  for (const unsigned pin : {5u, 6u, 8u, 9u}) {
+    CAPTURE(pin);
+    CHECK((rig.port.MODER.stored() >> (2 * pin) & 3) == 2);
+    CHECK((rig.port.AFR[pin / 8].stored() >> (4 * (pin % 8)) & 15) == 9);
+    CHECK((rig.port.PUPDR.stored() >> (2 * pin) & 3) == 1);
+  }
+  CHECK((rig.port.MODER.stored() & 0x3FF) == 0x280);
+  CHECK((rig.port.PUPDR.stored() & 0x3FF) == 0x100);
+}
+
+TEST_CASE("board: the supply's early warning, at the detector's highest level") {
+  Rig rig;
+  rig.board.start();
+  CHECK((rig.pwr.CR.stored() & 0xF0) == 0xF0);
+  CHECK_FALSE(rig.board.supply_low());
+  rig.pwr.CSR.store(pwr::kSupplyBelow);
+  CHECK(rig.board.supply_low());
+  CHECK(rig.board.supply_V() == 0.0f);
+}
+
+TEST_CASE("board: the watchdog is unlocked for its settings, waited for, and fed") {
+  Rig rig;
+  std::vector<std::pair<std::string, std::uint32_t>> log;
+  const auto note = [&log](const char* name) {
+    return [&log, name](hal::Register& r, std::uint32_t value) {
+      log.emplace_back(name, value);
+      r.store(value);
+    };
+  };
+  rig.access.when_written(rig.iwdg.KR, note("KR"));
+  rig.access.when_written(rig.iwdg.PR, note("PR"));
+  rig.access.when_written(rig.iwdg.RLR, note("RLR"));
+  int updating = 5;
+  rig.access.when_read(rig.iwdg.SR, [&](hal::Register&) { return updating-- > 0 ? 3u : 0u; });
+  rig.watchdog.start(Watchdog::Time::kTick);
+  rig.board.feed_watchdog();
+  using Log = std::vector<std::pair<std::string, std::uint32_t>>;
+  CHECK(
+      log ==
+      Log{{"KR", 0xCCCC}, {"KR", 0x5555}, {"PR", 0}, {"RLR", 234}, {"KR", 0xAAAA}, {"KR", 0xAAAA}});
+  CHECK(updating < 0);
+  // An oscillator that never answers does not hold the start up.
+  rig.access.when_read(rig.iwdg.SR, [](hal::Register&) { return 3u; });
+  rig.watchdog.set(Watchdog::Time::kStart);
+  CHECK(rig.access.accesses < 100'000);
+}
+
+TEST_CASE("board: CAN lets through what the dictionary addresses to the foot, the e-stop apart") {
+  tests::SimulatedBxCan can;
+  REQUIRE(set_can_filters(can.registers));
+  for (std::size_t bus = 0; bus < 2; ++bus) {
+    std::set<std::uint32_t> wanted;
+    firmware::app::for_each_received_id(bus, [&](std::uint32_t id) { wanted.insert(id); });
+    REQUIRE_FALSE(wanted.empty());
+    for (std::uint32_t id = 0; id < 0x800; ++id) {
+      CAPTURE(bus, id);
+      const auto fifo = can.filtered(bus, id << 21);
+      REQUIRE(fifo.has_value() == (wanted.count(id) == 1));
+      if (fifo) REQUIRE(*fifo == (id == firmware::app::kEmergencyStopId ? 0 : 1));
+    }
+  }
+}
