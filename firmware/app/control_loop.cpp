@@ -128,7 +128,6 @@ void ControlLoop::tick(std::int64_t now_ns) {
 void ControlLoop::adopt_toe_zero() {
   if (const std::optional<float> zero_rad = controller_.new_toe_zero_rad()) {
     inbox_.shift_zero(Joint::kToe, *zero_rad);
-    gate_.forget_position(Joint::kToe);
   }
   inbox_.set_referenced(Joint::kToe, controller_.homed());
 }
