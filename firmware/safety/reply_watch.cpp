@@ -14,8 +14,9 @@ void ReplyWatch::start(std::int64_t now_ns) {
   since_ns_ = now_ns;
 }
 
-FaultBits ReplyWatch::inspect(const JointLimits& limits, const JointState& state,
-                              const JointWish& passed, std::int64_t now_ns, std::uint32_t ticks) {
+FaultBits ReplyWatch::inspect(const JointLimits& limits, const DriveData& drive,
+                              const JointState& state, const JointWish& passed, std::int64_t now_ns,
+                              std::uint32_t ticks) {
   ticks_ += ticks;
   const bool heard = state.received && state.received_ns > since_ns_;
   const std::int64_t heard_ns = heard ? state.received_ns : since_ns_;
@@ -31,7 +32,7 @@ FaultBits ReplyWatch::inspect(const JointLimits& limits, const JointState& state
   if (state.referenced && outside) found |= fault::kOutsideTravel;
   if (compared_ && state.received_ns == last_.received_ns) return found;
   if (!motion_plausible(limits, state)) found |= fault::kImplausibleReply;
-  if (!follows(limits, state, passed)) found |= fault::kNotFollowing;
+  if (!follows(limits, drive, state, passed)) found |= fault::kNotFollowing;
   last_ = {state.reading_rad, state.velocity_rad_s, state.received_ns};
   compared_ = true;
   ticks_ = 0;
@@ -61,13 +62,14 @@ bool ReplyWatch::motion_plausible(const JointLimits& limits, const JointState& s
 /// The reply tells the torque that the drive made of a command a tick or two old; what the last one
 /// asks at the reported state is nearly that, but for moments. So what counts is for how many ticks
 /// more it is far off than near.
-bool ReplyWatch::follows(const JointLimits& limits, const JointState& state,
+bool ReplyWatch::follows(const JointLimits& limits, const DriveData& drive, const JointState& state,
                          const JointWish& passed) {
   if (passed.action != control::DriveAction::kCommand) {
     astray_ticks_ = 0;
     return true;
   }
-  const float asked_Nm = predicted_torque_Nm(passed.command, state);
+  const float asked_Nm = control::clamp(predicted_torque_Nm(passed.command, state),
+                                        -drive.peak_torque_Nm, drive.peak_torque_Nm);
   if (control::absolute(state.torque_Nm - asked_Nm) > limits.following_Nm) {
     ++astray_ticks_;
   } else if (astray_ticks_ > 0) {

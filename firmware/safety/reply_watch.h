@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "firmware/control/types.h"
+#include "firmware/safety/drive_data.h"
 #include "firmware/safety/limits.h"
 
 namespace hoof::firmware::safety {
@@ -17,12 +18,13 @@ class ReplyWatch {
   void start(std::int64_t now_ns);
 
   /// Once per tick.
-  /// @param passed what went to the drive in the last tick
+  /// @param drive what the drive can
+  /// @param passed what went to it in the last tick
   /// @param ticks SYNC numbers since the last call, 1 unless some were missed
   /// @return faults found now
-  control::FaultBits inspect(const JointLimits& limits, const control::JointState& state,
-                             const control::JointWish& passed, std::int64_t now_ns,
-                             std::uint32_t ticks);
+  control::FaultBits inspect(const JointLimits& limits, const DriveData& drive,
+                             const control::JointState& state, const control::JointWish& passed,
+                             std::int64_t now_ns, std::uint32_t ticks);
 
  private:
   struct Reply {
@@ -32,7 +34,7 @@ class ReplyWatch {
   };
 
   bool motion_plausible(const JointLimits& limits, const control::JointState& state);
-  bool follows(const JointLimits& limits, const control::JointState& state,
+  bool follows(const JointLimits& limits, const DriveData& drive, const control::JointState& state,
                const control::JointWish& passed);
 
   std::int64_t since_ns_ = 0;

@@ -60,7 +60,8 @@ FaultBits TorqueGate::inspect(const control::PerJoint<JointState>& joints, Mode 
     found |= warm(i, joints[i], now_ns, elapsed_ns);
     if (!used) continue;
     if (!watching_) replies_[i].start(now_ns);
-    found |= replies_[i].inspect(kLimits[i], joints[i], verdict_.joint[i], now_ns, ticks);
+    found |=
+        replies_[i].inspect(kLimits[i], kDrives[i], joints[i], verdict_.joint[i], now_ns, ticks);
   }
   watching_ = used;
   if (found != 0) latched_ = true;
