@@ -89,7 +89,8 @@ TEST_CASE("The ceiling falls from the peak at 0.9 to the continuous torque at 1,
   CHECK(heat_ceiling_Nm(kLegDrive, 2.0f, 317.0f) == 268.0f);
 }
 
-TEST_CASE("A toe asked for more than it bears for ever gets what it bears, without overheating") {
+TEST_CASE("A toe asked for more than it bears for ever gets what it bears, without overheating",
+          "[slow]") {
   TorqueGate gate({});
   control::PerJoint<JointState> joints{};
   for (JointState& joint : joints) joint.received = true;
@@ -97,7 +98,7 @@ TEST_CASE("A toe asked for more than it bears for ever gets what it bears, witho
   float highest = 0.0f;
   int first_lowered_ms = 0;
   float torque_Nm = 0.0f;
-  for (int ms = 1; ms <= 4'000'000; ++ms) {
+  for (int ms = 10; ms <= 4'000'000; ms += 10) {  // every tenth tick is enough
     for (JointState& joint : joints) joint.received_ns = ms * kMillisecond_ns;
     joints[0].torque_Nm = torque_Nm;
     REQUIRE(gate.inspect(joints, Mode::kReady, ms * kMillisecond_ns) == 0);
@@ -110,8 +111,8 @@ TEST_CASE("A toe asked for more than it bears for ever gets what it bears, witho
   CHECK(gate.heat_ratio(Joint::kToe) == Approx(1.0f).margin(1e-3));
   CHECK(torque_Nm == Approx(9.0f).margin(0.01));
   CHECK(gate.verdict().limits[0] == limit::kOverload);
-  // 10 Nm: s = 1.235; 0.9 is reached after 300 s * ln(1.235 / 0.335) = 391 s.
-  CHECK(first_lowered_ms == Approx(391'400).margin(400));
+  // 10 Nm: s = 1.235; 0.9 is reached after 300 s * ln(1.2346 / 0.3346) = 391.7 s.
+  CHECK(first_lowered_ms == Approx(391'700).margin(300));
 }
 
 TEST_CASE("A drive that heats itself beyond what it was asked for is an overload, in any mode") {

@@ -127,7 +127,8 @@ void for_every_count(std::size_t joint, Visit&& visit) {
 
 }  // namespace
 
-TEST_CASE("Every torque count within the limit passes unchanged; every one beyond is cut to it") {
+TEST_CASE("Every torque count within the limit passes unchanged; every one beyond is cut to it",
+          "[slow]") {
   const auto joints = resting_joints();
   for (std::size_t joint = 0; joint < control::kJointCount; ++joint) {
     for (const float heat : kHeats) {
