@@ -75,9 +75,11 @@ void ControlLoop::examine_start() {
 void ControlLoop::poll() {
   const std::int64_t now_ns = clock_.now_ns();
   mode_before_ = controller_.mode();
+  cycle_.begin();
   watch_sync(now_ns);
-  watch_board(now_ns);
+  watch_button();
   read(now_ns);
+  cycle_.passed(safety::Stage::kRead);
   answer_orders(now_ns);
   answer_services(now_ns);
   run_due_tick(now_ns);
@@ -85,6 +87,7 @@ void ControlLoop::poll() {
   send_heartbeat_if_due(now_ns);
   outbox_.flush(*buses_[0]);
   keep_fault_log(now_ns);
+  if (cycle_.finished()) board_.feed_watchdog();
 }
 
 /// Before anything is read: frames that waited while this loop was not called must not hide that it
@@ -100,11 +103,13 @@ void ControlLoop::watch_sync(std::int64_t now_ns) {
   }
 }
 
-/// The button's line and the supply, at every poll.
-void ControlLoop::watch_board(std::int64_t) {
+/// The line of the e-stop button, at every poll. Pressed it stops once, not in every poll: the exit
+/// frames would flood the bus.
+void ControlLoop::watch_button() {
+  const bool was_pressed = gate_.emergency_pressed();
   const bool pressed = board_.emergency_stop_pressed();
-  if (pressed && !button_pressed_) emergency_stop();
-  button_pressed_ = pressed;
+  gate_.emergency_line(pressed);
+  if (pressed && !was_pressed) emergency_stop();
 }
 
 /// Both buses are emptied before a tick runs: the replies on bus 1 belong to the SYNC on bus 0.
@@ -123,10 +128,9 @@ void ControlLoop::answer_orders(std::int64_t now_ns) {
     if (answer.result != protocol::OrderResult::kAccepted) ++counters_.refused_orders;
     queue(encode(answer));
   };
-  const OrderConditions conditions{.synced = synced_, .emergency_stop_pressed = button_pressed_};
   while (const auto connect = inbox_.take_connect()) send(orders_.handle(*connect, now_ns));
   while (const auto order = inbox_.take_order()) {
-    send(orders_.handle(*order, conditions, now_ns));
+    send(orders_.handle(*order, synced_, now_ns));
   }
 }
 
@@ -152,32 +156,40 @@ void ControlLoop::adopt_parameters() {
     const bool found_by_homing = joint == Joint::kToe && !parameters_.control.homing.is_absolute();
     if (found_by_homing && controller_.homed()) continue;
     inbox_.set_zero(joint, parameters_.zero_rad(joint));
-    gate_.forget_position(joint);
   }
 }
 
 void ControlLoop::run_due_tick(std::int64_t now_ns) {
+  std::uint32_t elapsed_ticks = 1;
   if (const std::optional<std::uint32_t> number = inbox_.take_sync()) {
+    if (synced_) elapsed_ticks = *number - telemetry_.tick;
     synced_ = true;
     last_sync_ns_ = now_ns;
     telemetry_.tick = *number;
-    tick(now_ns);
-  } else if (!synced_ && controller_.mode() == Mode::kDampedStop &&
-             now_ns - last_tick_ns_ >= kTick_ns) {
-    tick(now_ns);  // the safe stop goes on by the local clock
+  } else if (synced_ || controller_.mode() != Mode::kDampedStop ||
+             now_ns - last_tick_ns_ < kTick_ns) {
+    return;  // but the safe stop goes on by the local clock
   }
+  cycle_.tick_due();
+  tick(now_ns, elapsed_ticks);
+  trip(overrun_.note(now_ns, clock_.now_ns()));
+  counters_.overruns = overrun_.overruns();
 }
 
-void ControlLoop::tick(std::int64_t now_ns) {
+void ControlLoop::tick(std::int64_t now_ns, std::uint32_t elapsed_ticks) {
   ++counters_.ticks;
   last_tick_ns_ = now_ns;
   for (const hal::CanBus* bus : buses_) {
     if (bus->status().bus_off) trip(fault::kBusOff);
   }
-  trip(gate_.inspect(inbox_.joints(), controller_.mode(), now_ns));
+  trip(supply_.note(board_.supply_low(), board_.supply_V()));
+  trip(gate_.inspect(inbox_.joints(), controller_.mode(), now_ns, elapsed_ticks));
   const control::Wish& wish = controller_.step(inbox_.joints());
+  cycle_.passed(safety::Stage::kDecide);
   const safety::Verdict& verdict = gate_.check(wish, inbox_.joints());
+  cycle_.passed(safety::Stage::kGate);
   write(verdict.joint);
+  cycle_.passed(safety::Stage::kWrite);
   trip(verdict.faults);
   if (controller_.faults() != 0) gate_.latch();
   record(now_ns);
@@ -193,7 +205,6 @@ void ControlLoop::tick(std::int64_t now_ns) {
 void ControlLoop::adopt_toe_zero() {
   if (const std::optional<float> zero_rad = controller_.new_toe_zero_rad()) {
     inbox_.set_zero(Joint::kToe, inbox_.zero_rad(Joint::kToe) + *zero_rad);
-    gate_.forget_position(Joint::kToe);
   }
   inbox_.set_referenced(Joint::kToe, controller_.homed());
 }
@@ -253,6 +264,9 @@ void ControlLoop::record(std::int64_t now_ns) {
   t.phase_cycles = leg.path().phase_cycles();
   t.gait_rate_Hz = leg.path().rate_Hz();
   t.ground = controller_.ground();
+  for (std::size_t i = 0; i < control::kJointCount; ++i) {
+    t.heat_ratio[i] = gate_.heat_ratio(static_cast<Joint>(i));
+  }
   t.supply_V = board_.supply_V();
   t.gate_interventions = gate_.interventions();
   t.counters = counters_;

@@ -13,6 +13,9 @@
 #include "firmware/app/storage.h"
 #include "firmware/app/telemetry.h"
 #include "firmware/control/foot_controller.h"
+#include "firmware/safety/cycle_watch.h"
+#include "firmware/safety/overrun.h"
+#include "firmware/safety/supply.h"
 #include "firmware/safety/torque_gate.h"
 #include "hal/board.h"
 #include "hal/can_bus.h"
@@ -54,13 +57,13 @@ class ControlLoop {
  private:
   void examine_start();
   void watch_sync(std::int64_t now_ns);
-  void watch_board(std::int64_t now_ns);
+  void watch_button();
   void read(std::int64_t now_ns);
   void answer_orders(std::int64_t now_ns);
   void answer_services(std::int64_t now_ns);
   void adopt_parameters();
   void run_due_tick(std::int64_t now_ns);
-  void tick(std::int64_t now_ns);
+  void tick(std::int64_t now_ns, std::uint32_t elapsed_ticks);
   void adopt_toe_zero();
   void write(const control::PerJoint<control::JointWish>& joints);
   void send_exit_again();
@@ -80,6 +83,9 @@ class ControlLoop {
   Inbox inbox_;
   control::FootController controller_;
   safety::TorqueGate gate_;
+  safety::CycleWatch cycle_;
+  safety::OverrunWatch overrun_;
+  safety::SupplyWatch supply_;
   Ownership ownership_;
   OrderDesk orders_;
   ServiceDesk services_;
@@ -89,7 +95,6 @@ class ControlLoop {
   bool synced_ = false;
   std::int64_t last_sync_ns_ = 0;
   std::int64_t last_tick_ns_ = 0;
-  bool button_pressed_ = false;            // the e-stop line at the last poll
   control::PerJoint<bool> exit_unsent_{};  // an e-stop's exit frame that the bus did not take
   control::Mode mode_before_ = control::Mode::kOff;  // at the begin of this poll
   control::FaultBits logged_faults_ = 0;

@@ -40,10 +40,9 @@ OrderResult result_of(Ownership::Standing standing) {
 
 }  // namespace
 
-protocol::OrderAcknowledge OrderDesk::handle(const ReceivedOrder& received,
-                                             const OrderConditions& conditions,
+protocol::OrderAcknowledge OrderDesk::handle(const ReceivedOrder& received, bool synced,
                                              std::int64_t now_ns) {
-  const OrderResult result = judge(received, conditions, now_ns);
+  const OrderResult result = judge(received, synced, now_ns);
   return answer(result, received.order.supervisor_id, received.order.counter);
 }
 
@@ -66,8 +65,7 @@ protocol::OrderAcknowledge OrderDesk::answer(OrderResult result, std::uint8_t su
   return answer;
 }
 
-OrderResult OrderDesk::judge(const ReceivedOrder& received, const OrderConditions& conditions,
-                             std::int64_t now_ns) {
+OrderResult OrderDesk::judge(const ReceivedOrder& received, bool synced, std::int64_t now_ns) {
   if (received.result != protocol::DecodeResult::kOk) return OrderResult::kBadCrc;
   const protocol::SupervisorOrder& order = received.order;
   ownership_.hear(order.supervisor_id, now_ns);
@@ -76,7 +74,7 @@ OrderResult OrderDesk::judge(const ReceivedOrder& received, const OrderCondition
       ownership_.judge(order.supervisor_id, order.counter, controller_.mode(), now_ns);
   if (standing != Ownership::Standing::kGranted) return result_of(standing);
   ownership_.count();
-  const OrderResult result = carry_out(order, conditions);
+  const OrderResult result = carry_out(order, synced);
   if (result != OrderResult::kAccepted) return result;
   if (order.order == Order::kRelease) {
     ownership_.release();
@@ -99,18 +97,17 @@ OrderResult OrderDesk::stop(const protocol::SupervisorOrder& order, std::int64_t
   return result;
 }
 
-OrderResult OrderDesk::carry_out(const protocol::SupervisorOrder& order,
-                                 const OrderConditions& conditions) {
+OrderResult OrderDesk::carry_out(const protocol::SupervisorOrder& order, bool synced) {
   switch (order.order) {
     case Order::kReady:
     case Order::kRun:
       // Without SYNC nothing would move now; it must not begin to at some later time.
-      if (!conditions.synced) return OrderResult::kNoSync;
+      if (!synced) return OrderResult::kNoSync;
       return result_of(order.order == Order::kReady
                            ? controller_.order_ready(order.toe_angle_rad)
                            : controller_.order_run(order.toe_angle_rad, order.frequency_Hz));
     case Order::kReset:
-      return reset(conditions);
+      return reset();
     case Order::kRelease:
       return OrderResult::kAccepted;
     case Order::kStop:
@@ -119,8 +116,8 @@ OrderResult OrderDesk::carry_out(const protocol::SupervisorOrder& order,
   return OrderResult::kUnknownOrder;
 }
 
-OrderResult OrderDesk::reset(const OrderConditions& conditions) {
-  if (conditions.emergency_stop_pressed) return OrderResult::kWrongMode;
+OrderResult OrderDesk::reset() {
+  if (gate_.emergency_pressed()) return OrderResult::kWrongMode;
   const OrderResult result = result_of(controller_.order_reset());
   if (result == OrderResult::kAccepted) gate_.reset();
   return result;

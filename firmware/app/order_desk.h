@@ -11,12 +11,6 @@
 
 namespace hoof::firmware::app {
 
-/// What the loop knows and an order depends on.
-struct OrderConditions {
-  bool synced = true;                   // SYNC is coming
-  bool emergency_stop_pressed = false;  // the line of the button, now
-};
-
 /// Orders of connected supervisors, by the rules of Ownership; but anybody may stop.
 class OrderDesk {
  public:
@@ -24,8 +18,9 @@ class OrderDesk {
       : controller_(controller), gate_(gate), ownership_(ownership) {}
 
   /// Carries the order out, or refuses it; the answer is to be sent to the supervisor.
-  protocol::OrderAcknowledge handle(const ReceivedOrder& received,
-                                    const OrderConditions& conditions, std::int64_t now_ns);
+  /// @param synced SYNC is coming; without it nothing is begun
+  protocol::OrderAcknowledge handle(const ReceivedOrder& received, bool synced,
+                                    std::int64_t now_ns);
 
   /// Connects the supervisor, or refuses it for its dictionary.
   protocol::OrderAcknowledge handle(const protocol::SupervisorConnect& connect,
@@ -34,12 +29,10 @@ class OrderDesk {
  private:
   protocol::OrderAcknowledge answer(protocol::OrderResult result, std::uint8_t supervisor_id,
                                     std::uint8_t counter) const;
-  protocol::OrderResult judge(const ReceivedOrder& received, const OrderConditions& conditions,
-                              std::int64_t now_ns);
+  protocol::OrderResult judge(const ReceivedOrder& received, bool synced, std::int64_t now_ns);
   protocol::OrderResult stop(const protocol::SupervisorOrder& order, std::int64_t now_ns);
-  protocol::OrderResult carry_out(const protocol::SupervisorOrder& order,
-                                  const OrderConditions& conditions);
-  protocol::OrderResult reset(const OrderConditions& conditions);
+  protocol::OrderResult carry_out(const protocol::SupervisorOrder& order, bool synced);
+  protocol::OrderResult reset();
 
   control::FootController& controller_;
   safety::TorqueGate& gate_;

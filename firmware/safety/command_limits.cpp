@@ -58,14 +58,15 @@ LimitBits limit_targets(const JointLimits& limits, const JointState& state, Join
   return bits;
 }
 
-LimitBits limit_torque(const JointLimits& limits, const JointState& state, float previous_Nm,
-                       JointCommand& c) {
+LimitBits limit_torque(const JointLimits& limits, float ceiling_Nm, const JointState& state,
+                       float previous_Nm, JointCommand& c) {
   LimitBits bits = 0;
   if (confine(c.torque_Nm, -limits.feed_forward_Nm, limits.feed_forward_Nm)) bits |= limit::kTorque;
   const float wished_Nm = predicted_torque_Nm(c, state);
   const float change_Nm = limits.torque_rate_Nm_s * control::kTick_s;
   float allowed_Nm = wished_Nm;
   if (confine(allowed_Nm, -limits.torque_Nm, limits.torque_Nm)) bits |= limit::kTorque;
+  if (confine(allowed_Nm, -ceiling_Nm, ceiling_Nm)) bits |= limit::kOverload;
   if (!is_pure_damping(c) &&
       confine(allowed_Nm, previous_Nm - change_Nm, previous_Nm + change_Nm)) {
     bits |= limit::kTorqueRate;

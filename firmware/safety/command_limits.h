@@ -19,10 +19,12 @@ LimitBits limit_targets(const JointLimits& limits, const control::JointState& st
                         control::JointCommand& command);
 
 /// Limits the torque that the drive will make of the command at the measured state: the
-/// feed-forward to what the wire carries, the whole to the ceiling, its change against
-/// `previous_Nm` (itself within the ceiling) to the rate. Pure damping may set in at any rate.
-LimitBits limit_torque(const JointLimits& limits, const control::JointState& state,
-                       float previous_Nm, control::JointCommand& command);
+/// feed-forward to what the wire carries, the whole to limits.torque_Nm and to `ceiling_Nm` (no
+/// more than that; less where the winding is warm), its change against `previous_Nm` to the rate.
+/// Pure damping may set in at any rate.
+LimitBits limit_torque(const JointLimits& limits, float ceiling_Nm,
+                       const control::JointState& state, float previous_Nm,
+                       control::JointCommand& command);
 
 /// Changes the command so that its torque at the measured state changes by delta_Nm: by the
 /// feed-forward as far as the wire carries, the rest by moving the position target, then the

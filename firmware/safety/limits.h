@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "firmware/control/types.h"
+#include "firmware/safety/drive_data.h"
 
 namespace hoof::firmware::safety {
 
@@ -19,6 +20,8 @@ struct JointLimits {
   float kd_Nm_s_rad;
   float plausible_rad_s;   // a measured position cannot move faster
   float end_of_range_rad;  // readings at or beyond are a saturated code, not an angle
+  float drift_rad;         // of the readings from the sum of the reported speeds
+  float following_Nm;      // of the reported torque from the one that was asked
   float stop_kd_Nm_s_rad;  // damping that replaces a command after a fault
 };
 
@@ -34,14 +37,17 @@ inline constexpr JointLimits kToeLimits{
     .kd_Nm_s_rad = 5.0f,      // end of the wire's codes
     .plausible_rad_s = 45.0f,    // end of the wire's codes, beyond the drive's no-load speed
     .end_of_range_rad = 12.49f,  // end of the wire's codes less 26 of them
+    .drift_rad = 0.03f,          // see kDriftMemory_s
+    .following_Nm = 2.5f,        // a quarter of the ceiling
     .stop_kd_Nm_s_rad = 2.4f,    // damping ratio 0.7 at the default stiffness
 };
 
 /// The travel differs between hip and knee; everything else is common.
 constexpr JointLimits leg_limits(float lower_rad, float upper_rad) {
   return {
-      .torque_Nm = 350.0f,         // 1.5 times the 235 Nm of the paper's fastest stance: clips none
-      .torque_rate_Nm_s = 100e3f,  // ceiling in 3.5 ms; a foot fall takes up to 75 a tick
+      // All that the drive has; 1.35 times the 235 Nm of the paper's fastest stance: clips none.
+      .torque_Nm = kLegDrive.peak_torque_Nm,
+      .torque_rate_Nm_s = 100e3f,  // ceiling in 3.2 ms; a foot fall takes up to 75 a tick
       .feed_forward_Nm = 400.0f,   // end of the wire's codes
       .distance_rad = 0.1f,        // 5 cm at the foot
       .lower_rad = lower_rad,
@@ -51,6 +57,8 @@ constexpr JointLimits leg_limits(float lower_rad, float upper_rad) {
       .kd_Nm_s_rad = 500.0f,       // end of the wire's codes
       .plausible_rad_s = 20.0f,    // end of the wire's codes
       .end_of_range_rad = 3.19f,   // end of the wire's codes less 100 of them
+      .drift_rad = 0.02f,          // see kDriftMemory_s; 1 cm at the foot
+      .following_Nm = 80.0f,       // a quarter of the ceiling
       .stop_kd_Nm_s_rad = 200.0f,  // 200 Nm of load sink at 1 rad/s
   };
 }
@@ -60,11 +68,41 @@ constexpr JointLimits leg_limits(float lower_rad, float upper_rad) {
 inline constexpr control::PerJoint<JointLimits> kLimits{kToeLimits, leg_limits(-1.2f, 1.6f),
                                                         leg_limits(-2.7f, 0.05f)};
 
+/// A ceiling is no more than the drive has, and more than what a warm drive is left with; that far
+/// it may fall at once (after a reset, say) without a change beyond the rate.
+constexpr bool ceiling_fits(const JointLimits& limits, const DriveData& drive) {
+  const float fall_Nm = limits.torque_Nm - drive.continuous_torque_Nm;
+  return limits.torque_Nm <= drive.peak_torque_Nm && fall_Nm > 0.0f &&
+         fall_Nm <= limits.torque_rate_Nm_s * control::kTick_s;
+}
+static_assert(ceiling_fits(kLimits[0], kDrives[0]) && ceiling_fits(kLimits[1], kDrives[1]) &&
+              ceiling_fits(kLimits[2], kDrives[2]));
+
 /// Beyond its travel by this much a joint is not where it can be. 3 degrees.
 inline constexpr float kTravelMargin_rad = 0.05f;
 
 /// Insulation class B bears 130 degC; 30 less for the winding being hotter than its sensor.
 inline constexpr float kHighestTemperature_C = 100.0f;
+
+/// Heat as a share of what the continuous torque would end at. From the first on the ceiling of
+/// torque falls, at 1 it is the continuous torque; beyond the last the torque is not ours.
+inline constexpr float kWarm = 0.9f;
+inline constexpr float kOverheated = 1.1f;
+
+/// How long a deviation of reading from reported speed is remembered. What the bounds of drift_rad
+/// must bear (toe / leg): speed codes that are cut instead of rounded, 22 / 10 mrad/s for this
+/// long, 2.2 / 1.0 mrad; position codes 0.4 / 0.1; the lag of the drive's speed filter (200 Hz: 0.8
+/// ms) when the foot slips or strikes, 20 / 10 rad/s of change, 16 / 8; play of a gear whose
+/// encoders sit on both sides, 3 / 3. Measured on rigid ground, where strikes are hardest: 1.1
+/// / 5.2 mrad. Found is then a jump beyond the bound, and a drift of 0.3 / 0.2 rad/s or more.
+inline constexpr float kDriftMemory_s = 0.1f;
+
+/// Across more ticks than that nothing is integrated: SYNC numbers were left out (had so much time
+/// passed, the reply would be stale).
+inline constexpr std::uint32_t kLongestGap_ticks = 20;
+
+/// A drive that does not follow for so many ticks more than it does has lost its torque.
+inline constexpr int kNotFollowingTicks = 100;
 
 /// Without a reply, or without SYNC, for so long, the foot stops. The drives drop their torque
 /// after the same time without a command.

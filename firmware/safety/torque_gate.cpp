@@ -17,6 +17,10 @@ namespace fault = control::fault;
 
 namespace {
 
+constexpr float seconds(std::int64_t time_ns) {
+  return static_cast<float>(time_ns) * 1e-9f;
+}
+
 bool drives_are_used(Mode mode) {
   return mode == Mode::kHoming || mode == Mode::kReady || mode == Mode::kRunning ||
          mode == Mode::kDampedStop;
@@ -46,47 +50,45 @@ bool allowed(Mode mode, std::size_t joint, const JointWish& wish) {
 }  // namespace
 
 FaultBits TorqueGate::inspect(const control::PerJoint<JointState>& joints, Mode mode,
-                              std::int64_t now_ns) {
-  if (!drives_are_used(mode)) {
-    watching_ = false;
-    return 0;
-  }
-  if (!watching_) {  // drives get the freshness time to answer for the first time
-    watching_ = true;
-    watched_since_ns_ = now_ns;
-  }
+                              std::int64_t now_ns, std::uint32_t ticks) {
+  const std::int64_t elapsed_ns = now_ns - inspected_ns_;
+  inspected_ns_ = now_ns;
+  const bool used = drives_are_used(mode);
   FaultBits found = 0;
   for (std::size_t i = 0; i < kJointCount; ++i) {
     if (!presence_.has(i)) continue;
-    found |= inspect_joint(i, joints[i], now_ns);
-    last_[i] = joints[i];
+    found |= warm(i, joints[i], now_ns, elapsed_ns);
+    if (!used) continue;
+    if (!watching_) replies_[i].start(now_ns);
+    found |=
+        replies_[i].inspect(kLimits[i], kDrives[i], joints[i], verdict_.joint[i], now_ns, ticks);
   }
+  watching_ = used;
   if (found != 0) latched_ = true;
   return found;
 }
 
-FaultBits TorqueGate::inspect_joint(std::size_t i, const JointState& state, std::int64_t now_ns) {
-  const bool heard = state.received && state.received_ns > watched_since_ns_;
-  const std::int64_t heard_ns = heard ? state.received_ns : watched_since_ns_;
-  if (now_ns - heard_ns > kFreshness_ns) return fault::kDriveLost;
-  if (!heard) return 0;
-  FaultBits found = 0;
-  if (state.error != 0) found |= fault::kDriveError;
-  if (state.temperature_C > kHighestTemperature_C) found |= fault::kOverTemperature;
-  if (!position_plausible(i, state)) found |= fault::kImplausibleReply;
-  const bool outside = state.position_rad < kLimits[i].lower_rad - kTravelMargin_rad ||
-                       state.position_rad > kLimits[i].upper_rad + kTravelMargin_rad;
-  if (state.referenced && outside) found |= fault::kOutsideTravel;
-  return found;
+/// In every mode: a winding cools while its drive is off, and a drive that pushes then is worse. A
+/// drive that has fallen silent, or whose commands have, drops its torque by its own time-out.
+FaultBits TorqueGate::warm(std::size_t i, const JointState& state, std::int64_t now_ns,
+                           std::int64_t elapsed_ns) {
+  if (elapsed_ns > 0) {
+    const bool fresh = state.received && now_ns - state.received_ns <= kFreshness_ns;
+    const std::int64_t heated_ns = elapsed_ns < kFreshness_ns ? elapsed_ns : kFreshness_ns;
+    heat_[i].add(fresh ? state.torque_Nm : 0.0f, seconds(heated_ns), seconds(elapsed_ns));
+  }
+  return heat_[i].ratio() > kOverheated ? fault::kOverload : 0;
 }
 
-bool TorqueGate::position_plausible(std::size_t i, const JointState& state) const {
-  if (control::absolute(state.position_rad) >= kLimits[i].end_of_range_rad) return false;
-  if (!last_[i].received || last_[i].received_ns == state.received_ns) return true;
-  const float elapsed_s = static_cast<float>(state.received_ns - last_[i].received_ns) * 1e-9f;
-  // Half a tick more: replies need not come at equal distances.
-  const float reach_rad = kLimits[i].plausible_rad_s * (elapsed_s + 0.5f * control::kTick_s);
-  return control::absolute(state.position_rad - last_[i].position_rad) <= reach_rad;
+void TorqueGate::emergency_line(bool pressed) {
+  pressed_ = pressed;
+  if (pressed) emergency_stop();
+}
+
+bool TorqueGate::reset() {
+  if (pressed_) return false;
+  emergency_ = latched_ = false;
+  return true;
 }
 
 const Verdict& TorqueGate::check(const control::Wish& wish,
@@ -123,7 +125,8 @@ void TorqueGate::judge(std::size_t i, Mode mode, const JointWish& wish, const Jo
     bits |= limit::kLatched;
   }
   bits |= limit_targets(kLimits[i], state, out.command);
-  bits |= limit_torque(kLimits[i], state, previous_Nm, out.command);
+  const float ceiling_Nm = heat_ceiling_Nm(kDrives[i], heat_[i].ratio(), kLimits[i].torque_Nm);
+  bits |= limit_torque(kLimits[i], ceiling_Nm, state, previous_Nm, out.command);
   verdict_.torque_Nm[i] = predicted_torque_Nm(out.command, state);
 }
 

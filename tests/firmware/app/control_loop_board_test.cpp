@@ -97,3 +97,78 @@ TEST_CASE("An order that comes without SYNC is refused: nothing moves when SYNC 
   bench.run(100);
   CHECK(bench.loop->mode() == Mode::kOff);
 }
+
+TEST_CASE("The watchdog is fed by every finished cycle, and by nothing else") {
+  LoopBench bench;
+  bench.run(10);
+  const std::uint32_t idle = bench.board.feeds;
+  CHECK(idle == 200);  // 20 polls a millisecond, with and without a tick due
+  bring_to_ready(bench);
+  const std::uint32_t before = bench.board.feeds;
+  bench.run(10);
+  CHECK(bench.board.feeds == before + 200);
+  bench.polled = false;  // the loop hangs
+  bench.run(10);
+  CHECK(bench.board.feeds == before + 200);
+}
+
+TEST_CASE("A supply that sags stops the foot; a spike of one tick does not") {
+  LoopBench bench;
+  bring_to_ready(bench);
+  bench.board.low = true;
+  bench.run(1);
+  bench.board.low = false;
+  bench.run(5);
+  CHECK(bench.loop->faults() == 0);
+  bench.board.low = true;
+  bench.run(3);
+  CHECK(bench.loop->faults() == fault::kBrownOut);
+  CHECK(bench.loop->mode() == Mode::kDampedStop);
+  LoopBench measured;
+  measured.board.volts = 48.0f;
+  bring_to_ready(measured);
+  CHECK(measured.loop->telemetry().supply_V == 48.0f);
+  measured.board.volts = 35.0f;
+  measured.run(3);
+  CHECK(measured.loop->faults() == fault::kBrownOut);
+}
+
+namespace {
+
+/// Each look at it takes time: a tick that ends later than it began by two of these.
+class SlowClock final : public hoof::hal::Clock {
+ public:
+  std::int64_t step_ns = 0;
+  mutable std::int64_t now = 0;
+  std::int64_t now_ns() const override { return now += step_ns; }
+};
+
+}  // namespace
+
+TEST_CASE("Ticks that take longer than a tick are counted; three in a row stop the foot") {
+  LoopBench bench;
+  SlowClock clock;
+  auto parameters = calibrated();
+  app::ControlLoop loop({&bench.foot0, &bench.foot1}, clock, bench.board, parameters);
+  std::uint32_t tick = 0;
+  const auto run = [&](int ticks) {
+    for (int i = 0; i < ticks; ++i) {
+      bench.master0.send(encode(protocol::Sync{tick++}));
+      bench.bus0.advance_to(bench.bus0.now_ns() + 1'000'000);
+      bench.bus1.advance_to(bench.bus1.now_ns() + 1'000'000);
+      loop.poll();
+    }
+  };
+  clock.step_ns = 500'000;
+  run(10);
+  CHECK(loop.telemetry().counters.overruns == 0);
+  clock.step_ns = 1'100'000;
+  run(2);
+  clock.step_ns = 500'000;
+  run(2);
+  CHECK(loop.telemetry().counters.overruns == 2);
+  CHECK(loop.faults() == 0);
+  clock.step_ns = 1'100'000;
+  run(4);
+  CHECK(loop.faults() == fault::kOverrun);
+}

@@ -19,7 +19,7 @@ struct Office {
   safety::TorqueGate gate{control::JointPresence{}};
   app::Ownership ownership;
   OrderDesk desk{controller, gate, ownership};
-  app::OrderConditions conditions;
+  bool synced = true;
   std::uint8_t counter = 0;
 
   protocol::OrderAcknowledge ask(Order order, std::uint8_t who, std::int64_t now_ns,
@@ -27,7 +27,7 @@ struct Office {
     desk.handle(protocol::SupervisorConnect{who, protocol::kProtocolHash}, now_ns);
     const auto answer =
         desk.handle({protocol::DecodeResult::kOk, {who, order, toe_rad, frequency_Hz, counter}},
-                    conditions, now_ns);
+                    synced, now_ns);
     counter = answer.expected_counter;
     return answer;
   }
@@ -101,16 +101,17 @@ TEST_CASE("A reset lifts the gate's latch only where the controller allows it") 
 
 TEST_CASE("Without SYNC nothing is begun, with the button pressed nothing is reset") {
   Office office;
-  office.conditions.synced = false;
+  office.synced = false;
   CHECK(office.ask(Order::kReady, 5, 0).result == OrderResult::kNoSync);
   CHECK(office.ask(Order::kRun, 5, 0).result == OrderResult::kNoSync);
   CHECK(office.controller.mode() == Mode::kOff);
   CHECK(office.ask(Order::kStop, 5, 0).result == OrderResult::kAccepted);
+  office.synced = true;
   office.controller.emergency_stop();
-  office.conditions.emergency_stop_pressed = true;
+  office.gate.emergency_line(true);
   CHECK(office.ask(Order::kReset, 5, 0).result == OrderResult::kWrongMode);
   CHECK(office.controller.mode() == Mode::kEmergencyOff);
-  office.conditions.emergency_stop_pressed = false;
+  office.gate.emergency_line(false);
   CHECK(office.ask(Order::kReset, 5, 0).result == OrderResult::kAccepted);
 }
 
@@ -123,7 +124,7 @@ TEST_CASE("A supervisor with another dictionary is refused, and so are its order
     return office.desk
         .handle({protocol::DecodeResult::kOk,
                  {who, what, 0.1f, 1.0f, office.ownership.expected_counter()}},
-                office.conditions, now_ns)
+                true, now_ns)
         .result;
   };
   const auto refused = connect(5, protocol::kProtocolHash ^ 1u, 0);

@@ -3,8 +3,12 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "firmware/safety/command_limits.h"
+#include "tests/firmware/safety/gate_bench.h"
+
 using namespace hoof::firmware;
 using namespace hoof::firmware::safety;
+using namespace hoof::firmware::safety::test;
 using control::DriveAction;
 using control::FaultBits;
 using control::Joint;
@@ -13,41 +17,6 @@ using control::JointState;
 using control::kJointCount;
 using control::Mode;
 namespace fault = control::fault;
-
-namespace {
-
-constexpr std::int64_t kMillisecond_ns = 1'000'000;
-
-/// A gate that has watched healthy replies for a while; time in milliseconds.
-struct Watched {
-  TorqueGate gate{control::JointPresence{}};
-  control::PerJoint<JointState> joints{};
-  std::int64_t now_ms = 0;
-
-  Watched() {
-    for (JointState& joint : joints) joint.received = joint.referenced = true;
-    joints[2].position_rad = -1.0f;
-    for (int i = 0; i < 5; ++i) REQUIRE(next() == 0);
-  }
-
-  /// One millisecond on; replies of all joints but `silent` come.
-  FaultBits next(int silent = -1) {
-    ++now_ms;
-    for (std::size_t i = 0; i < kJointCount; ++i) {
-      if (static_cast<int>(i) != silent) joints[i].received_ns = now_ms * kMillisecond_ns;
-    }
-    return gate.inspect(joints, Mode::kReady, now_ms * kMillisecond_ns);
-  }
-};
-
-control::Wish wish_for(Mode mode, std::size_t joint, DriveAction action, JointCommand c = {}) {
-  control::Wish wish;
-  wish.mode = mode;
-  wish.joint[joint] = {action, c};
-  return wish;
-}
-
-}  // namespace
 
 TEST_CASE("A drive silent for 20 ms is passed, for 21 ms it is lost; each joint for itself") {
   for (int joint = 0; joint < 3; ++joint) {
@@ -113,6 +82,8 @@ TEST_CASE("Joints that the rig does not have are neither watched nor commanded")
   TorqueGate gate({.toe = true, .leg = false});
   control::PerJoint<JointState> joints{};
   joints[0].received = true;
+  for (JointState& joint : joints) joint.torque_Nm = 1e4f;
+  joints[0].torque_Nm = 0.0f;
   for (int ms = 0; ms < 100; ++ms) {
     joints[0].received_ns = ms * kMillisecond_ns;
     CHECK(gate.inspect(joints, Mode::kReady, ms * kMillisecond_ns) == 0);
@@ -120,6 +91,8 @@ TEST_CASE("Joints that the rig does not have are neither watched nor commanded")
   const auto& verdict =
       gate.check(wish_for(Mode::kReady, 1, DriveAction::kCommand, {.torque_Nm = 5.0f}), joints);
   CHECK(verdict.joint[1].action == DriveAction::kExit);
+  CHECK(verdict.limits[1] == 0);
+  CHECK(gate.heat_ratio(Joint::kHip) == 0.0f);
 }
 
 TEST_CASE("Every kind of bad reply latches the gate and is named") {
@@ -132,12 +105,18 @@ TEST_CASE("Every kind of bad reply latches the gate and is named") {
       {"drive error", [](JointState& s) { s.error = 3; }, fault::kDriveError},
       {"unknown drive error", [](JointState& s) { s.error = 200; }, fault::kDriveError},
       {"hot", [](JointState& s) { s.temperature_C = 101.0f; }, fault::kOverTemperature},
-      {"jump up", [](JointState& s) { s.position_rad += 0.09f; }, fault::kImplausibleReply},
-      {"jump down", [](JointState& s) { s.position_rad -= 0.09f; }, fault::kImplausibleReply},
-      {"end of range", [](JointState& s) { s.position_rad = 12.5f; },
-       FaultBits(fault::kImplausibleReply | fault::kOutsideTravel)},
-      {"lower end of range", [](JointState& s) { s.position_rad = -12.5f; },
-       FaultBits(fault::kImplausibleReply | fault::kOutsideTravel)},
+      {"jump up", [](JointState& s) { s.reading_rad += 0.09f; }, fault::kImplausibleReply},
+      {"jump down", [](JointState& s) { s.reading_rad -= 0.09f; }, fault::kImplausibleReply},
+      {"end of range", [](JointState& s) { s.reading_rad = 12.5f; }, fault::kImplausibleReply},
+      {"lower end", [](JointState& s) { s.reading_rad = -12.5f; }, fault::kImplausibleReply},
+      {"above its travel", [](JointState& s) { s.position_rad = 2.0f; }, fault::kOutsideTravel},
+      {"below its travel", [](JointState& s) { s.position_rad = -3.0f; }, fault::kOutsideTravel},
+      {"two at once",
+       [](JointState& s) {
+         s.error = 1;
+         s.temperature_C = 130.0f;
+       },
+       FaultBits(fault::kDriveError | fault::kOverTemperature)},
   };
   for (std::size_t joint = 0; joint < 3; ++joint) {
     for (const Case& c : cases) {
@@ -150,33 +129,43 @@ TEST_CASE("Every kind of bad reply latches the gate and is named") {
   }
 }
 
-TEST_CASE("Just inside its bounds a reply passes") {
-  Watched w;
-  w.joints[0].position_rad += 0.044f;  // 45 rad/s for 1 ms
-  w.joints[1].position_rad -= 0.019f;  // 20 rad/s for 1 ms
-  w.joints[2].temperature_C = 100.0f;
-  CHECK(w.next() == 0);
-}
-
-TEST_CASE("Beyond its travel a joint is a fault, where its zero is known") {
-  for (const bool known : {true, false}) {
+TEST_CASE("Missed SYNC numbers are time in which a joint has moved") {
+  for (const std::uint32_t ticks : {1u, 10u}) {
     Watched w;
-    w.joints[0].referenced = known;
-    FaultBits found = 0;
-    for (int i = 0; i < 60 && found == 0; ++i) {
-      w.joints[0].position_rad += 0.02f;
-      found = w.next();
-    }
-    CHECK(found == (known ? fault::kOutsideTravel : 0));
-    if (known) CHECK(w.joints[0].position_rad == Approx(1.06f));  // 1.0 + 0.05, in steps of 0.02
+    w.joints[1].velocity_rad_s = 4.0f;
+    w.place(1, 0.002f);
+    REQUIRE(w.next() == 0);
+    w.now_ms += 9;  // of the local clock; replies came, SYNC did not
+    w.place(1, 0.042f);
+    for (JointState& joint : w.joints) joint.received_ns = (w.now_ms + 1) * kMillisecond_ns;
+    const FaultBits found =
+        w.gate.inspect(w.joints, Mode::kReady, (w.now_ms + 1) * kMillisecond_ns, ticks);
+    // 40 mrad in one millisecond at 4 rad/s would be 36 too many.
+    CHECK(found == (ticks == 10 ? 0 : fault::kImplausibleReply));
   }
 }
 
-TEST_CASE("A moved zero is no jump") {
+TEST_CASE("A drive that does not follow what passed the gate is a fault; the wish does not count") {
   Watched w;
-  w.joints[0].position_rad += 0.5f;
-  w.gate.forget_position(Joint::kToe);
-  CHECK(w.next() == 0);
+  control::Wish wish;
+  wish.mode = Mode::kReady;
+  wish.joint[1] = {DriveAction::kCommand, {.torque_Nm = 90.0f}};
+  FaultBits found = 0;
+  int ticks = 0;
+  while (found == 0 && ticks < 1000) {
+    w.gate.check(wish, w.joints);
+    found = w.next();
+    ++ticks;
+  }
+  CHECK(found == fault::kNotFollowing);
+  CHECK(ticks == kNotFollowingTicks);
+
+  Watched refused;
+  wish.mode = Mode::kOff;  // exit frames go instead
+  for (int i = 0; i < 200; ++i) {
+    refused.gate.check(wish, refused.joints);
+    REQUIRE(refused.next() == 0);
+  }
 }
 
 TEST_CASE("The allow-list, mode by mode") {
@@ -256,9 +245,26 @@ TEST_CASE("A wish that is not a number latches and becomes damping") {
   const auto& verdict = w.gate.check(
       wish_for(Mode::kReady, 1, DriveAction::kCommand, {.torque_Nm = std::nanf("")}), w.joints);
   CHECK(verdict.faults == fault::kInvalidWish);
+  CHECK(verdict.limits[1] == limit::kLatched);
   CHECK(w.gate.latched());
   CHECK(verdict.joint[1].command.torque_Nm == 0.0f);
   CHECK(verdict.joint[1].command.kd_Nm_s_rad == kLimits[1].stop_kd_Nm_s_rad);
+  CHECK(w.gate.check(wish_for(Mode::kReady, 1, DriveAction::kExit), w.joints).faults == 0);
+  CHECK(w.gate.latched());
+}
+
+TEST_CASE("In every field a number that is none becomes damping") {
+  for (int field = 0; field < 5; ++field) {
+    Watched w;
+    JointCommand c{.kp_Nm_rad = 1.0f};
+    float* const fields[] = {&c.position_rad, &c.velocity_rad_s, &c.kp_Nm_rad, &c.kd_Nm_s_rad,
+                             &c.torque_Nm};
+    *fields[field] = INFINITY;
+    const auto& verdict =
+        w.gate.check(wish_for(Mode::kRunning, 1, DriveAction::kCommand, c), w.joints);
+    CHECK(verdict.faults == fault::kInvalidWish);
+    CHECK(is_pure_damping(verdict.joint[1].command));
+  }
 }
 
 TEST_CASE("After an emergency stop only exit passes, until the reset") {
@@ -276,6 +282,63 @@ TEST_CASE("After an emergency stop only exit passes, until the reset") {
   const auto& verdict =
       w.gate.check(wish_for(Mode::kReady, 0, DriveAction::kCommand, {.torque_Nm = 1.0f}), w.joints);
   CHECK(verdict.joint[0].command.torque_Nm == 1.0f);
+}
+
+TEST_CASE("The e-stop line stops while pressed, and no reset passes before it is let go") {
+  Watched w;
+  const auto stiff = wish_for(Mode::kReady, 0, DriveAction::kCommand, {.torque_Nm = 1.0f});
+  w.gate.emergency_line(false);
+  CHECK_FALSE(w.gate.emergency_pressed());
+  CHECK_FALSE(w.gate.latched());
+  CHECK(w.gate.check(stiff, w.joints).limits[0] == 0);
+
+  w.gate.emergency_line(true);
+  CHECK(w.gate.emergency_pressed());
+  CHECK(w.gate.latched());
+  CHECK(w.gate.check(stiff, w.joints).joint[0].action == DriveAction::kExit);
+  CHECK_FALSE(w.gate.reset());
+  CHECK(w.gate.latched());
+  CHECK(w.gate.check(stiff, w.joints).joint[0].action == DriveAction::kExit);
+
+  w.gate.emergency_line(false);  // let go: nothing is lifted by that
+  CHECK_FALSE(w.gate.emergency_pressed());
+  CHECK(w.gate.latched());
+  CHECK(w.gate.check(stiff, w.joints).limits[0] == limit::kLatched);
+  CHECK(w.gate.reset());
+  CHECK_FALSE(w.gate.latched());
+  CHECK(w.gate.check(stiff, w.joints).limits[0] == 0);
+}
+
+TEST_CASE("What pushes in place of a refused wish is nothing: the next torque starts from zero") {
+  for (const Mode mode : {Mode::kOff, Mode::kReady}) {
+    Watched w;
+    control::Wish wish = wish_for(Mode::kReady, 1, DriveAction::kCommand, {.torque_Nm = 90.0f});
+    CHECK(w.gate.check(wish, w.joints).torque_Nm[1] == 90.0f);
+    wish.joint[1].action = mode == Mode::kOff ? DriveAction::kCommand : DriveAction::kExit;
+    wish.mode = mode;
+    CHECK(w.gate.check(wish, w.joints).torque_Nm[1] == 0.0f);
+    wish = wish_for(Mode::kReady, 1, DriveAction::kCommand, {.torque_Nm = 190.0f});
+    const Verdict& verdict = w.gate.check(wish, w.joints);
+    CHECK(verdict.torque_Nm[1] == Approx(100.0f));  // the rate is 1e5 * 1e-3f
+    CHECK(verdict.limits[1] == limit::kTorqueRate);
+  }
+}
+
+TEST_CASE("The limits of all joints together are what each has, and pass with the tick") {
+  Watched w;
+  control::Wish wish;
+  wish.mode = Mode::kReady;
+  wish.joint[0] = {DriveAction::kCommand, {.kp_Nm_rad = 1000.0f}};
+  wish.joint[1] = {DriveAction::kCommand, {.velocity_rad_s = 9.0f}};
+  wish.joint[2] = {DriveAction::kEnter, {}};
+  const Verdict& verdict = w.gate.check(wish, w.joints);
+  CHECK(verdict.limits[0] == limit::kGain);
+  CHECK(verdict.limits[1] == limit::kVelocity);
+  CHECK(verdict.limits[2] == limit::kRefused);
+  CHECK(verdict.active_limits() == (limit::kGain | limit::kVelocity | limit::kRefused));
+  wish = {};
+  wish.mode = Mode::kReady;
+  CHECK(w.gate.check(wish, w.joints).active_limits() == 0);
 }
 
 TEST_CASE("Interventions count each joint and tick once") {

@@ -1,0 +1,60 @@
+// A gate with three drives that answer every millisecond.
+#pragma once
+
+#include <catch2/catch.hpp>
+
+#include "firmware/safety/torque_gate.h"
+
+namespace hoof::firmware::safety::test {
+
+inline constexpr std::int64_t kMillisecond_ns = 1'000'000;
+
+/// Has watched healthy replies for a while; time in milliseconds.
+struct Watched {
+  TorqueGate gate{control::JointPresence{}};
+  control::PerJoint<control::JointState> joints{};
+  std::int64_t now_ms = 0;
+
+  Watched() {
+    for (control::JointState& joint : joints) joint.received = joint.referenced = true;
+    place(2, -1.0f);
+    for (int i = 0; i < 5; ++i) REQUIRE(next() == 0);
+  }
+
+  /// Angle and reading, as with a zero at 0.
+  void place(std::size_t joint, float position_rad) {
+    joints[joint].position_rad = joints[joint].reading_rad = position_rad;
+  }
+
+  /// One millisecond on; replies of all joints but `silent` come.
+  control::FaultBits next(int silent = -1, control::Mode mode = control::Mode::kReady) {
+    ++now_ms;
+    for (std::size_t i = 0; i < control::kJointCount; ++i) {
+      if (static_cast<int>(i) != silent) joints[i].received_ns = now_ms * kMillisecond_ns;
+    }
+    return gate.inspect(joints, mode, now_ms * kMillisecond_ns);
+  }
+};
+
+inline control::Wish wish_for(control::Mode mode, std::size_t joint, control::DriveAction action,
+                              control::JointCommand c = {}) {
+  control::Wish wish;
+  wish.mode = mode;
+  wish.joint[joint] = {action, c};
+  return wish;
+}
+
+/// Makes the drive report a torque, while the foot is off, until its heat ratio is there.
+inline void warm_up(TorqueGate& gate, std::size_t joint, float ratio) {
+  control::PerJoint<control::JointState> joints{};
+  joints[joint].received = true;
+  joints[joint].torque_Nm = 1.5f * kDrives[joint].continuous_torque_Nm;
+  std::int64_t now_ns = 1'000'000'000'000;
+  while (gate.heat_ratio(static_cast<control::Joint>(joint)) < ratio) {
+    now_ns += kFreshness_ns;
+    joints[joint].received_ns = now_ns;
+    gate.inspect(joints, control::Mode::kOff, now_ns);
+  }
+}
+
+}  // namespace hoof::firmware::safety::test
