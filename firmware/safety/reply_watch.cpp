@@ -48,11 +48,16 @@ bool ReplyWatch::motion_plausible(const JointLimits& limits, const JointState& s
   const float elapsed_s = static_cast<float>(state.received_ns - last_.received_ns) * 1e-9f;
   // Half a tick more: replies need not come at equal distances.
   const float reach_rad = limits.plausible_rad_s * (elapsed_s + 0.5f * control::kTick_s);
-  // In control time: the local clock of a slow plant says nothing about its speed.
+  // Control time stands still while SYNC pauses, the local clock runs on while a slow plant stands:
+  // whatever lies between the two can be true.
   const float time_s = static_cast<float>(ticks_) * control::kTick_s;
   const float mean_rad_s = 0.5f * (state.velocity_rad_s + last_.velocity_rad_s);
+  const float by_ticks_rad = mean_rad_s * time_s;
+  const float by_clock_rad = mean_rad_s * elapsed_s;
+  const float low_rad = by_ticks_rad < by_clock_rad ? by_ticks_rad : by_clock_rad;
+  const float high_rad = by_ticks_rad < by_clock_rad ? by_clock_rad : by_ticks_rad;
   if (ticks_ <= kLongestGap_ticks) {
-    drift_rad_ += moved_rad - mean_rad_s * time_s;
+    drift_rad_ += moved_rad - control::clamp(moved_rad, low_rad, high_rad);
     drift_rad_ /= 1.0f + time_s / kDriftMemory_s;
   }
   return control::absolute(moved_rad) <= reach_rad &&

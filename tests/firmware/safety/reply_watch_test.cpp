@@ -245,6 +245,7 @@ TEST_CASE("Lost replies and missed SYNC are gaps that the speeds bridge; longer 
     s.state.velocity_rad_s = 4.0f;
     s.state.reading_rad += 0.5e-3f * 4.0f;
     REQUIRE(s.next() == 0);
+    s.now_ns += (ticks - 1) * kMillisecond_ns;
     CHECK(s.next(ticks) == (ticks == kLongestGap_ticks ? fault::kImplausibleReply : 0));
     // What follows is judged as ever.
     s.watch.start(s.now_ns);

@@ -129,19 +129,35 @@ TEST_CASE("Every kind of bad reply latches the gate and is named") {
   }
 }
 
-TEST_CASE("Missed SYNC numbers are time in which a joint has moved") {
-  for (const std::uint32_t ticks : {1u, 10u}) {
-    Watched w;
-    w.joints[1].velocity_rad_s = 4.0f;
-    w.place(1, 0.002f);
-    REQUIRE(w.next() == 0);
-    w.now_ms += 9;  // of the local clock; replies came, SYNC did not
-    w.place(1, 0.042f);
-    for (JointState& joint : w.joints) joint.received_ns = (w.now_ms + 1) * kMillisecond_ns;
-    const FaultBits found =
-        w.gate.inspect(w.joints, Mode::kReady, (w.now_ms + 1) * kMillisecond_ns, ticks);
-    // 40 mrad in one millisecond at 4 rad/s would be 36 too many.
-    CHECK(found == (ticks == 10 ? 0 : fault::kImplausibleReply));
+TEST_CASE("Whether SYNC paused or its numbers were missed, a joint has moved meanwhile") {
+  struct Case {
+    std::uint32_t ticks;
+    float moved_rad;
+    FaultBits expected;
+  };
+  // 4 rad/s for 10 ms of the local clock: 40 mrad. The bound of the drift is 20.
+  const Case cases[] = {
+      {10, 0.040f, 0},                        // numbers missed
+      {1, 0.040f, 0},                         // SYNC paused, the joint went on
+      {1, 0.004f, 0},                         // a slow plant stood still meanwhile
+      {1, 0.0f, 0},                           // 4 too few: not yet
+      {10, 0.0f, fault::kImplausibleReply},   // 40 too few by either time
+      {1, 0.065f, fault::kImplausibleReply},  // 25 too many by either time
+      {1, -0.017f, fault::kImplausibleReply},
+  };
+  for (const Case& c : cases) {
+    for (const float sign : {1.0f, -1.0f}) {
+      INFO("ticks " << c.ticks << " moved " << sign * c.moved_rad);
+      Watched w;
+      w.joints[1].velocity_rad_s = sign * 4.0f;
+      w.place(1, sign * 0.002f);
+      REQUIRE(w.next() == 0);
+      w.now_ms += 10;
+      w.place(1, sign * (0.002f + c.moved_rad));
+      for (JointState& joint : w.joints) joint.received_ns = w.now_ms * kMillisecond_ns;
+      CHECK(w.gate.inspect(w.joints, Mode::kReady, w.now_ms * kMillisecond_ns, c.ticks) ==
+            c.expected);
+    }
   }
 }
 
