@@ -2,7 +2,9 @@
 // both buses, silent and lying drives, full and broken buses, jumps of the clock. LoopWatch judges
 // every poll.
 #include <algorithm>
+#include <bit>
 
+#include "firmware/protocol/protocol_hash.h"
 #include "tests/fuzz/byte_source.h"
 #include "tests/fuzz/loop_rig.h"
 
@@ -15,8 +17,9 @@ namespace {
 /// Two seconds of firmware time: home, run, stop and start anew fit in.
 constexpr int kLongest_ms = 2000;
 
-/// Byte 0: bit 0 no toe, bit 1 no leg, bits 2 to 4 how many parameters are set anywhere in their
-/// range; for each its place in the table and the place in the range.
+/// Byte 0: bit 0 no toe, bit 1 no leg, bit 5 calibration left to chance, bits 2 to 4 how many
+/// parameters are set anywhere in their range; for each its place in the table and the place in the
+/// range.
 app::Parameters parameters_from(ByteSource& bytes) {
   app::Parameters parameters;
   const std::uint8_t head = bytes.byte();
@@ -26,6 +29,9 @@ app::Parameters parameters_from(ByteSource& bytes) {
     const float share = static_cast<float>(bytes.word()) / 65535.0f;
     const float value = entry.minimum + share * (entry.maximum - entry.minimum);
     set(parameters, entry.name, std::min(value, entry.maximum));
+  }
+  if ((head & 32u) == 0) {
+    for (app::JointCalibration& joint : parameters.calibration) joint.done = 1.0f;
   }
   parameters.toe_present = (head & 1u) != 0 ? 0.0f : 1.0f;
   parameters.leg_present = (head & 2u) != 0 ? 0.0f : 1.0f;
@@ -165,15 +171,61 @@ class Script {
   }
 
   void program() {
-    switch (bytes_.byte() % 3) {
+    switch (bytes_.byte() % 8) {
       case 0:
         return rig_.loop().request_stop();
       case 1:
         rig_.loop().emergency_stop();
         return rig_.watch().stopped_by_program();
-      default:
+      case 2:
         return rig_.loop().release_drives();
+      case 3:
+        return connect();
+      case 4:
+        return write();
+      case 5:
+        return service();
+      default:
+        return board();
     }
+  }
+
+  void connect() {
+    const std::uint8_t how = bytes_.byte();
+    rig_.connect(how & 7u, protocol::kProtocolHash ^ ((how & 8u) != 0 ? bytes_.long_word() : 0u));
+  }
+
+  /// A value anywhere in the range of its parameter, or any bits at all.
+  void write() {
+    const auto table = app::parameter_table();
+    const std::uint8_t how = bytes_.byte();
+    const std::uint8_t index = bytes_.byte();
+    std::uint32_t bits = bytes_.long_word();
+    if ((how & 16u) == 0) {
+      const app::ParameterEntry& entry = table[index % table.size()];
+      const float share = static_cast<float>(bits >> 8) * 0x1p-24f;
+      bits = std::bit_cast<std::uint32_t>(entry.minimum + share * (entry.maximum - entry.minimum));
+    }
+    rig_.send_service(
+        protocol::ParameterWrite{static_cast<std::uint8_t>((how & 3u) ^ 1u), index, bits, 0},
+        how >> 2 & 3u);
+  }
+
+  void service() {
+    const std::uint8_t how = bytes_.byte();
+    protocol::ServiceRequest request;
+    request.supervisor_id = (how & 3u) ^ 1u;
+    request.service = static_cast<protocol::Service>(how >> 4);
+    request.index = bytes_.byte();
+    request.offset = bytes_.word();
+    rig_.send_service(request, how >> 2 & 3u);
+  }
+
+  void board() {
+    const std::uint8_t how = bytes_.byte();
+    rig_.board().pressed = (how & 1u) != 0;
+    rig_.board().low = (how & 2u) != 0;
+    rig_.board().volts = (how & 4u) != 0 ? static_cast<float>(how >> 3) * 2.0f : 0.0f;
   }
 
   /// Drives and buses as at the start.
@@ -184,6 +236,8 @@ class Script {
       rig_.drive(i).temperature_C = 25.0f;
       rig_.drive(i).plant.load_Nm = 0.0;
     }
+    rig_.board().pressed = rig_.board().low = false;
+    rig_.board().volts = 0.0f;
     for (std::size_t i = 0; i < protocol::kBusCount; ++i) {
       rig_.bus(i).bus_off = false;
       rig_.bus(i).room = FuzzBus::kEndless;

@@ -1,6 +1,7 @@
 #include "tests/fuzz/loop_rig.h"
 
 #include "firmware/protocol/codec.h"
+#include "firmware/protocol/protocol_hash.h"
 
 namespace hoof::tests::fuzz {
 
@@ -47,7 +48,10 @@ void RigDrive::run() {
 /// The toe lies by its stop and the leg at the top of the default path (hip 0.562, knee -1.420),
 /// so that little time passes until the foot runs.
 LoopRig::LoopRig(const app::Parameters& parameters)
-    : loop_({&buses_[0], &buses_[1]}, clock_, board_, parameters), watch_(parameters.presence()) {
+    : loop_({&buses_[0], &buses_[1]}, clock_, board_, parameters, &storage_),
+      watch_(parameters.presence()) {
+  app::Parameters ignored;
+  storage_.load(ignored);  // readies the log
   drives_[0].plant.stop_rad = 0.0;
   drives_[0].plant.q_rad = 0.005;
   drives_[1].plant.q_rad = 0.562;
@@ -76,8 +80,10 @@ void LoopRig::silence() {
 
 void LoopRig::poll() {
   watch_.before({&buses_[0], &buses_[1]}, loop_, clock_.now_ns());
+  watch_.before(board_, flash_);
   loop_.poll();
   watch_.after(loop_);
+  watch_.after(board_, flash_, loop_);
   deliver();
 }
 
@@ -90,13 +96,32 @@ void LoopRig::deliver() {
       }
       protocol::OrderAcknowledge answer;
       if (decode(frame, answer) == DecodeResult::kOk) expected_counter_ = answer.expected_counter;
+      protocol::ServiceAnswer service;
+      if (decode(frame, service) == DecodeResult::kOk) follow(service);
     }
     buses_[b].sent.clear();
   }
 }
 
+void LoopRig::follow(const protocol::ServiceAnswer& answer) {
+  const bool reads = answer.service == protocol::Service::kReadParameter ||
+                     answer.service == protocol::Service::kReadStatus ||
+                     answer.service == protocol::Service::kReadFaultLog;
+  if (reads) return;
+  if (answer.result == protocol::ServiceResult::kBadCounter) {
+    expected_counter_ = static_cast<std::uint8_t>(answer.value);
+  } else if (answer.result == protocol::ServiceResult::kDone) {
+    expected_counter_ = static_cast<std::uint8_t>(answer.counter + 1);
+  }
+}
+
+void LoopRig::connect(std::uint8_t who, std::uint32_t hash) {
+  buses_[0].arriving.push_back(encode(protocol::SupervisorConnect{who, hash, 0}));
+}
+
 void LoopRig::send_order(protocol::SupervisorOrder order, std::uint8_t counter_error,
                          bool break_crc) {
+  connect(order.supervisor_id, protocol::kProtocolHash);
   order.counter = static_cast<std::uint8_t>(expected_counter_ + counter_error);
   hal::CanFrame frame = encode(order);
   if (break_crc) frame.data[frame.length - 1u] ^= 0x01;

@@ -1,8 +1,10 @@
 #include "tests/fuzz/loop_watch.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
+#include "firmware/app/crc32.h"
 #include "firmware/safety/command_limits.h"
 #include "firmware/safety/limits.h"
 #include "tests/fuzz/require.h"
@@ -40,6 +42,16 @@ float packing_error_Nm(Drive drive, const protocol::DriveCommand& c,
          half(3) * std::abs(c.velocity_rad_s - measured.velocity_rad_s) + half(4);
 }
 
+std::uint32_t crc_of(const app::Parameters& parameters) {
+  app::Parameters copy = parameters;
+  app::Crc32 crc;
+  for (const app::ParameterEntry& entry : app::parameter_table()) {
+    const std::array<std::uint32_t, 1> word{std::bit_cast<std::uint32_t>(entry.value(copy))};
+    crc.add(word);
+  }
+  return crc.value();
+}
+
 const protocol::MessageSpec* find_sent(const hal::CanFrame& frame, std::size_t bus) {
   for (const protocol::MessageSpec& message : protocol::kMessages) {
     const bool ours = message.sender == protocol::Node::kFoot && (message.buses >> bus & 1u) != 0;
@@ -58,6 +70,7 @@ void LoopWatch::before(Buses buses, const ControlLoop& loop, std::int64_t now_ns
   faults_before_ = loop.faults();
   ticks_before_ = loop.telemetry().counters.ticks;
   torque_before_Nm_ = loop.telemetry().verdict.torque_Nm;
+  parameters_before_ = crc_of(loop.parameters());
   for (std::size_t b = 0; b < buses_.size(); ++b) {
     for (const hal::CanFrame& frame : buses_[b]->arriving) hear(frame, b);
   }
@@ -94,6 +107,28 @@ void LoopWatch::after(const ControlLoop& loop) {
   check_freshness(loop);
   check_sent(loop);
   if (loop.telemetry().counters.ticks != ticks_before_) check_telemetry(loop);
+}
+
+void LoopWatch::before(const hal::SoftBoard& board, const hal::RamFlash& flash) {
+  if (board.pressed) heard_.emergency_stop = heard_.emergency_stop || !emergency_;
+  erases_before_ = flash.erases();
+  feeds_before_ = board.feeds;
+}
+
+void LoopWatch::after(const hal::SoftBoard& board, const hal::RamFlash& flash,
+                      const ControlLoop& loop) {
+  const bool was_off = mode_before_ == Mode::kOff || heard_.reset;
+  require(was_off || flash.erases() == erases_before_, "flash is erased in mode off only");
+  require(was_off || crc_of(loop.parameters()) == parameters_before_,
+          "parameters change in mode off only");
+  for (const app::ParameterEntry& entry : app::parameter_table()) {
+    app::Parameters copy = loop.parameters();
+    const float value = entry.value(copy);
+    require(value >= entry.minimum && value <= entry.maximum, "parameters keep their ranges");
+  }
+  require(!board.pressed || loop.mode() == Mode::kEmergencyOff,
+          "nothing leaves an emergency stop while the button is pressed");
+  require(board.feeds == feeds_before_ + 1, "a finished poll feeds the watchdog once");
 }
 
 void LoopWatch::check_modes(const ControlLoop& loop) {

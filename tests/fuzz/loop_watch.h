@@ -7,6 +7,8 @@
 
 #include "firmware/app/control_loop.h"
 #include "firmware/protocol/codec.h"
+#include "hal/in_process/ram_flash.h"
+#include "hal/in_process/soft_board.h"
 #include "tests/fuzz/fuzz_bus.h"
 
 namespace hoof::tests::fuzz {
@@ -21,6 +23,9 @@ class LoopWatch {
   void before(Buses buses, const firmware::app::ControlLoop& loop, std::int64_t now_ns);
   /// Looks at what the poll made of them; aborts at the first demand that is not met.
   void after(const firmware::app::ControlLoop& loop);
+  void before(const hal::SoftBoard& board, const hal::RamFlash& flash);
+  void after(const hal::SoftBoard& board, const hal::RamFlash& flash,
+             const firmware::app::ControlLoop& loop);
   /// The program itself called emergency_stop().
   void stopped_by_program() { emergency_ = true; }
 
@@ -55,6 +60,9 @@ class LoopWatch {
   firmware::control::FaultBits faults_before_ = 0;
   std::uint32_t ticks_before_ = 0;
   firmware::control::PerJoint<float> torque_before_Nm_{};
+  std::size_t erases_before_ = 0;
+  std::uint32_t feeds_before_ = 0;
+  std::uint32_t parameters_before_ = 0;  // CRC of all values
 
   firmware::control::PerJoint<firmware::protocol::DriveReply> measured_{};
   firmware::control::PerJoint<std::int64_t> replied_ns_{};

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Searches with one libFuzzer target, starting from its corpus. 15 s; a minute with
+# Searches with one libFuzzer target, starting from its corpus. A minute; ten with
 # HOOF_FULL_TESTS=1; HOOF_FUZZ_SECONDS says otherwise. The seed is fixed: HOOF_FUZZ_SEED.
 # New inputs and findings go to the scratch folder, never to the corpus.
 #
@@ -14,8 +14,8 @@ if [ ! -x "$program" ]; then
   exit 77
 fi
 
-seconds=15
-[ "${HOOF_FULL_TESTS:-0}" = 1 ] && seconds=60
+seconds=60
+[ "${HOOF_FULL_TESTS:-0}" = 1 ] && seconds=600
 seconds=${HOOF_FUZZ_SECONDS:-$seconds}
 seed=${HOOF_FUZZ_SEED:-1}
 

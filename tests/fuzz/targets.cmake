@@ -10,7 +10,8 @@ set(fuzz_libraries_decoders hoof_protocol)
 set(fuzz_sources_candump ${here}/candump_fuzz.cpp ${root}/hil_bridge/candump.cpp)
 set(fuzz_libraries_candump "")
 set(fuzz_sources_control_loop
-  ${here}/control_loop_fuzz.cpp ${here}/loop_rig.cpp ${here}/loop_watch.cpp)
+  ${here}/control_loop_fuzz.cpp ${here}/loop_rig.cpp ${here}/loop_watch.cpp
+  ${root}/hal/in_process/ram_flash.cpp)
 set(fuzz_libraries_control_loop hoof_app)
 
 function(hoof_add_fuzz_targets KIND)
