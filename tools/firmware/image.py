@@ -15,7 +15,6 @@ class Section:
     size: int
     content: bytes  # empty where nothing is loaded
     allocated: bool
-    writable: bool
     load_address: int
 
 
@@ -76,7 +75,7 @@ class Image:
                     load_address = p_paddr + offset - p_offset
             sections.append(Section(self._string(names + name), address, size,
                                     self._bytes[offset:offset + size] if loaded else b"",
-                                    bool(flags & 2), bool(flags & 1), load_address))
+                                    bool(flags & 2), load_address))
         return sections
 
     def _read_symbols(self):

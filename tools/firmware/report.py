@@ -44,6 +44,10 @@ def folder_of(name):
     return "libraries"
 
 
+def is_ram(address):
+    return 0x10000000 <= address < 0x10010000 or 0x20000000 <= address < 0x40000000
+
+
 class Report:
     def __init__(self, arguments):
         self.arguments = arguments
@@ -83,7 +87,8 @@ class Report:
             print(f"    {folder:<14}{size:>8,}")
 
     def ram(self):
-        parts = [s for s in self.image.sections if s.allocated and s.writable and s.size]
+        # By address: a section that holds code alone is not marked writable.
+        parts = [s for s in self.image.sections if s.allocated and s.size and is_ram(s.address)]
         print("RAM")
         for section in parts:
             print(f"  {section.name:<14}{section.size:>8,}  at 0x{section.address:08x}")
@@ -137,10 +142,10 @@ class Report:
     def _code_in_ram(self, graph):
         """What runs from RAM does so while flash cannot be read."""
         for address, node in graph.nodes.items():
-            if address < 0x20000000:
+            if not is_ram(address):
                 continue
             for callee in node.callees:
-                if callee < 0x20000000:
+                if not is_ram(callee):
                     self.missed.append(f"{node.name} runs from RAM and calls "
                                        f"{self.image.name_of(callee)} in flash")
 

@@ -41,12 +41,13 @@ FlashResult FlashMemory::program(std::size_t sector, std::size_t word, Word valu
 FlashResult FlashMemory::erase(std::size_t sector) {
   if (sector >= kSectors) return FlashResult::kOutOfRange;
   if (!unlock()) return FlashResult::kFailed;
+  const Watchdog::Time former = watchdog_.time();
   watchdog_.set(Watchdog::Time::kStart);
   const auto number = kFirstSector + static_cast<std::uint32_t>(sector);
   wait_for_erase(flash::kSectorErase | flash::kBy32Bits | number << flash::kSectorShift);
   const bool done = finish();
   forget_cached_data();
-  watchdog_.set(Watchdog::Time::kTick);
+  watchdog_.set(former);
   return done ? FlashResult::kOk : FlashResult::kFailed;
 }
 

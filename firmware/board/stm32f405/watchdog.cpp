@@ -29,6 +29,7 @@ constexpr std::uint32_t kUpdateTries = 20'000;
 }  // namespace
 
 void Watchdog::set(Time time) {
+  time_ = time;
   const Setting& setting = time == Time::kTick ? kTick : kStart;
   const auto settled = [this] { return !registers_.SR.has_any(iwdg::kUpdating); };
   hal::wait_until(kUpdateTries, settled);

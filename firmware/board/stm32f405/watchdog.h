@@ -27,10 +27,13 @@ class Watchdog {
   /// Also feeds it.
   void set(Time time);
 
+  Time time() const { return time_; }
+
   void feed() { registers_.KR.write(iwdg::kReload); }
 
  private:
   IwdgRegisters& registers_;
+  Time time_ = Time::kStart;
 };
 
 }  // namespace hoof::firmware::stm32f405

@@ -81,6 +81,16 @@ class ReportTest(unittest.TestCase):
         self.refused("@frame\n[[gnu::used]] char big[65 * 1024];\nvoid hoof_start() {}",
                      "RAM: ", "bound 65,536")
 
+    def test_code_in_ram_counts_as_ram(self):
+        source = """@frame
+            [[gnu::section(".ram"), gnu::noinline, gnu::long_call]] void in_ram() { sink = 9; }
+            void hoof_start() { in_ram(); }"""
+        _, output = self.report(source)
+        total = output.split("RAM")[1].split("total")[1].split()[0]
+        self.assertIn("  .ram ", output.split("RAM")[1])
+        self.assertEqual(self.report(source, "--ram", total)[0], 0)
+        self.assertEqual(self.report(source, "--ram", str(int(total) - 1))[0], 1)
+
     def test_stack_by_direct_calls(self):
         self.refused("@frame\nvoid hoof_start() { deep<4000>(); }", "stack: ", "bound 4,096")
 

@@ -77,6 +77,14 @@ TEST_CASE("flash: erases the sector meant, with the watchdog's long time and bac
   }
 }
 
+TEST_CASE("flash: an erase at the start leaves the watchdog's long time as it is") {
+  SimulatedFlash sim;
+  sim.watchdog.set(stm32f405::Watchdog::Time::kStart);
+  sim.watchdog_log.clear();
+  REQUIRE(sim.memory.erase(2) == FlashResult::kOk);
+  CHECK(sim.watchdog_log == std::vector<std::string>{"reload 734", "feed", "reload 734", "feed"});
+}
+
 TEST_CASE("flash: the data cache is forgotten after an erase, while it is off") {
   SimulatedFlash sim;
   bool forgotten = false;

@@ -28,6 +28,7 @@ SimulatedFlash::SimulatedFlash() {
   access.when_written(scb.ICSR, [](Register& r, std::uint32_t value) {
     if ((value & scb_bits::kClearPendingTick) != 0) r.store(r.stored() & ~scb_bits::kPendingTick);
   });
+  watchdog.start(firmware::stm32f405::Watchdog::Time::kTick);
   access.when_written(iwdg.RLR, [this](Register& r, std::uint32_t value) {
     r.store(value);
     watchdog_log.push_back("reload " + std::to_string(value));
