@@ -28,7 +28,7 @@ firmware_usage() {
 }
 
 prepare_image() {
-  install_packages "firmware"
+  install_packages "build firmware"  # cmake and ninja are of the first
   [[ -f "$build_dir/build.ninja" ]] || configure stm32f405
   build hoof-stm32f405
 }
