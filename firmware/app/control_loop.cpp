@@ -66,8 +66,11 @@ ControlLoop::ControlLoop(Buses buses, const hal::Clock& clock, hal::Board& board
 /// What the last run left behind: a person should know before anything moves.
 void ControlLoop::examine_start() {
   FaultBits found = 0;
-  if (board_.reset_cause() == hal::ResetCause::kWatchdog) found |= fault::kWatchdogReset;
-  if (board_.reset_cause() == hal::ResetCause::kBrownOut) found |= fault::kBrownOut;
+  const hal::ResetCause cause = board_.reset_cause();
+  // This firmware asks for no reset but in its fault handlers.
+  const bool crashed = cause == hal::ResetCause::kSoftware;
+  if (crashed || cause == hal::ResetCause::kWatchdog) found |= fault::kUnexpectedReset;
+  if (cause == hal::ResetCause::kBrownOut) found |= fault::kBrownOut;
   if (storage_ != nullptr && storage_->doubtful()) found |= fault::kStorage;
   trip(found);
 }

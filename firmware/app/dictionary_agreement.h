@@ -51,7 +51,7 @@ static_assert(fault_named(control::fault::kInvalidWish, "invalid_wish"));
 static_assert(fault_named(control::fault::kOverrun, "overrun"));
 static_assert(fault_named(control::fault::kStorage, "storage"));
 static_assert(fault_named(control::fault::kBrownOut, "brown_out"));
-static_assert(fault_named(control::fault::kWatchdogReset, "watchdog_reset"));
+static_assert(fault_named(control::fault::kUnexpectedReset, "unexpected_reset"));
 
 constexpr bool limit_named(safety::LimitBits bits, std::string_view name) {
   return named(protocol::kLimitBitNames, bits, name);

@@ -59,7 +59,7 @@ inline constexpr FaultBits kInvalidWish = 1u << 15;
 inline constexpr FaultBits kOverrun = 1u << 16;
 inline constexpr FaultBits kStorage = 1u << 17;
 inline constexpr FaultBits kBrownOut = 1u << 18;
-inline constexpr FaultBits kWatchdogReset = 1u << 19;
+inline constexpr FaultBits kUnexpectedReset = 1u << 19;
 }  // namespace fault
 
 struct JointState {

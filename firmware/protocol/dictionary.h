@@ -44,7 +44,7 @@ inline constexpr ValueName kFaultBitNames[] = {
     {10, "toe_jammed"},       {11, "toe_stalled"},      {12, "outside_travel"},
     {13, "path_unreachable"}, {14, "emergency_stop"},   {15, "invalid_wish"},
     {16, "overrun"},          {17, "storage"},          {18, "brown_out"},
-    {19, "watchdog_reset"}};
+    {19, "unexpected_reset"}};
 
 /// Bits of the three joints' limits in FootGate.
 inline constexpr ValueName kLimitBitNames[] = {{0, "torque"},  {1, "torque_rate"}, {2, "distance"},

@@ -67,9 +67,11 @@ TEST_CASE("Exit frames of an e-stop that the bus refuses go out as soon as it ta
   CHECK_FALSE(bench.knee.entered);
 }
 
-TEST_CASE("A reset by the watchdog or by the supply is told and moves nothing until acknowledged") {
+TEST_CASE(
+    "A reset by the watchdog, a crash or the supply is told and moves nothing until acknowledged") {
   for (const auto& [cause, bits] :
-       {std::pair{hoof::hal::ResetCause::kWatchdog, fault::kWatchdogReset},
+       {std::pair{hoof::hal::ResetCause::kWatchdog, fault::kUnexpectedReset},
+        std::pair{hoof::hal::ResetCause::kSoftware, fault::kUnexpectedReset},
         std::pair{hoof::hal::ResetCause::kBrownOut, fault::kBrownOut}}) {
     LoopBench bench(calibrated(), nullptr, cause);
     bench.run(15);
@@ -79,8 +81,7 @@ TEST_CASE("A reset by the watchdog or by the supply is told and moves nothing un
     CHECK(bench.order(Order::kReset) == OrderResult::kAccepted);
     CHECK(bench.order(Order::kReady, 0.1f) == OrderResult::kAccepted);
   }
-  for (const auto cause : {hoof::hal::ResetCause::kPowerOn, hoof::hal::ResetCause::kPin,
-                           hoof::hal::ResetCause::kSoftware}) {
+  for (const auto cause : {hoof::hal::ResetCause::kPowerOn, hoof::hal::ResetCause::kPin}) {
     LoopBench bench(calibrated(), nullptr, cause);
     bench.run(5);
     CHECK(bench.loop->mode() == Mode::kOff);

@@ -320,7 +320,7 @@ TEST_CASE("A fault is kept with the ticks before it, and is read over the bus af
   shop.bench.run(300);  // 148 ticks to write it
 
   Shop next(shop.flash, hoof::hal::ResetCause::kWatchdog);
-  CHECK(next.bench.loop->faults() == fault::kWatchdogReset);
+  CHECK(next.bench.loop->faults() == fault::kUnexpectedReset);
   next.bench.run(300);
   CHECK(next.status(Status::kResetCause) ==
         static_cast<std::uint32_t>(hoof::hal::ResetCause::kWatchdog));
@@ -339,7 +339,7 @@ TEST_CASE("A fault is kept with the ticks before it, and is read over the bus af
     const auto record = app::decode(words);
     REQUIRE(record.has_value());
     if (slot == 1) {
-      CHECK(record->faults == fault::kWatchdogReset);
+      CHECK(record->faults == fault::kUnexpectedReset);
       continue;
     }
     CHECK(record->faults == fault::kDriveLost);
