@@ -11,7 +11,7 @@ void AdaptiveOpening::start(float ordered_rad) {
 
 std::optional<float> AdaptiveOpening::update(const GroundEstimate& ground, bool below_sand,
                                              bool may_move, float target_rad) {
-  if (!enabled()) return std::nullopt;
+  if (!settings_.is_enabled()) return std::nullopt;
   if (ground.contact) {
     if (!below_sand) return std::nullopt;
     felt_ = true;

@@ -17,8 +17,6 @@ class AdaptiveOpening {
   AdaptiveOpening(const AdaptiveSettings& settings, float largest_angle_rad)
       : settings_(settings), largest_angle_rad_(largest_angle_rad) {}
 
-  bool enabled() const { return settings_.is_enabled(); }
-
   /// An order: begins at its angle with nothing learnt.
   void start(float ordered_rad);
 

@@ -267,7 +267,7 @@ void FootController::feel_ground(const States& joints) {
 void FootController::adapt_toe() {
   AdaptiveOpening& adaptive = parts_->adaptive;
   ToeOpening& toe = parts_->toe;
-  if (!adaptive.enabled() || !presence_.toe || !presence_.leg || !run_ordered_) return;
+  if (!presence_.toe || !presence_.leg || !run_ordered_) return;
   const GroundEstimate& ground = parts_->contact.estimate();
   if (ground.contact && adaptive.moved()) toe.halt();
   const StancePath& path = parts_->leg.path();

@@ -78,6 +78,21 @@ TEST_CASE("The power of the torques is the change of energy, in any motion") {
   }
 }
 
+TEST_CASE("Each drive's friction is fed forward by its own speed, both signs") {
+  const LegModelSettings m;
+  const LegDynamics leg(m), ideal(frictionless());
+  for (const float sign : {-1.0f, 1.0f}) {
+    const LegAngles q{0.5f, -1.2f}, v{sign * 2.0f, -sign * 1.0f};
+    const LegAngles with = leg.torque_Nm(q, v, {}), without = ideal.torque_Nm(q, v, {});
+    CHECK(with.hip_rad - without.hip_rad ==
+          Approx(sign * (4.8 * 2.0 / 2.05 + 0.5 * 2.0)).epsilon(1e-5));
+    CHECK(with.knee_rad - without.knee_rad ==
+          Approx(-sign * (4.8 * 1.0 / 1.05 + 0.5 * 1.0)).epsilon(1e-5));
+    CHECK(leg.friction_doubt_Nm(v).hip_rad == Approx(4.8 * 0.05 / 2.05));
+    CHECK(leg.friction_doubt_Nm({}).knee_rad == 4.8f);
+  }
+}
+
 TEST_CASE("Friction feed-forward is odd, smooth at zero and right at speed") {
   CHECK(smooth_friction_Nm(2.0f, 0.0f, 0.0f) == 0.0f);
   CHECK(smooth_friction_Nm(2.0f, 0.0f, 0.05f) == Approx(1.0f));

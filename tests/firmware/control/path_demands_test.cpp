@@ -101,7 +101,7 @@ TEST_CASE("The demand itself is the data page's: torque and speed of the hip, wi
     const std::array<Demand, 2> demand = demand_of(stance);
     const double fastest = std::max(demand[0].speed_rad_s, demand[1].speed_rad_s);
     CHECK(fastest == Approx(stance.frequency_Hz < 1.0f ? 0.73 : 1.82).epsilon(0.02));
-    // And a leg that dragged the whole peak force along the whole stance would be near the ceiling.
+    // The rest is gravity, inertia and friction, some of which helps.
     CHECK(demand[0].torque_Nm > 0.9 * stance.hip_peak_Nm);
   }
 }

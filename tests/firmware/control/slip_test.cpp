@@ -118,7 +118,7 @@ TEST_CASE("Below the threshold of speed there is no ratio; around it none that i
   }
 }
 
-TEST_CASE("Codes of the wire in the speeds shake the ratio by less than 0.02") {
+TEST_CASE("Codes of the wire in the speeds shake the ratio by half as much as unfiltered") {
   INFO("seed 72");
   std::mt19937 random(72);
   std::uniform_real_distribution<float> noise(-1.0f, 1.0f);
@@ -130,7 +130,8 @@ TEST_CASE("Codes of the wire in the speeds shake the ratio by less than 0.02") {
     if (i > 100) worst = std::max(worst, std::abs(g.slip_ratio - 0.5f));
   }
   CHECK(worst > 1e-5f);
-  CHECK(worst < 0.02f);
+  // Unfiltered V / u^2 * 5 mm/s = 0.0063; uniform noise through 20 ticks: 4 sigma of 0.0006.
+  CHECK(worst < 0.003f);
 }
 
 TEST_CASE("Friction that the model has wrong is a force within the bound, both signs and joints") {

@@ -75,6 +75,16 @@ TEST_CASE("Blocked without that torque: a stall, opening and closing") {
   CHECK(weak.toe.stalled());
 }
 
+TEST_CASE("A jam that is given longer than a stall is still a jam") {
+  ToeSettings settings;
+  settings.jam_time_s = 1.0f;
+  Bench bench(settings);
+  bench.plant.friction_Nm = 30.0;
+  bench.toe.move_to(0.6f);
+  CHECK(bench.run_until_blocked() == Approx(5 + 80 + 1000).margin(20));
+  CHECK(bench.toe.jammed());
+}
+
 TEST_CASE("The stall time is the setting's; a push that comes and goes is a stall at the latest") {
   ToeSettings settings;
   settings.stall_time_s = 1.5f;
@@ -140,6 +150,16 @@ TEST_CASE("A toe that arrived and then gives way is loaded: neither jam nor stal
       CHECK(bench.run_until_blocked(2000) > 0);
     }
   }
+}
+
+TEST_CASE("Passing the target on the way is no arrival: blocked on the way back is noticed") {
+  Bench bench({}, 0.0f);
+  bench.toe.move_to(0.6f);
+  while (bench.plant.q_rad < 0.3) bench.tick();
+  bench.toe.move_to(0.31f);  // at 2 rad/s: it goes on to 0.4 and comes back
+  while (bench.plant.q_rad < 0.38) bench.tick();
+  bench.plant.friction_Nm = 30.0;
+  CHECK(bench.run_until_blocked(1000) >= 0);
 }
 
 TEST_CASE("Small changes add up: they are watched from where the toe last arrived") {

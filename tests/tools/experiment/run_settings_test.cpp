@@ -120,11 +120,32 @@ TEST_CASE("the firmware is told about its rig: drives, end stop, friction") {
   const RunSettings traction = read_run_settings("traction", {"drives.hip.coulomb_friction_Nm=3"});
   CHECK(traction.parameters.leg_present == 1);
   CHECK(traction.parameters.control.leg_model.friction_Nm == 3);
+  const RunSettings viscous = read_run_settings(
+      "traction",
+      {"drives.hip.viscous_friction_Nm_s_rad=0.7", "drives.toe.viscous_friction_Nm_s_rad=0.05"});
+  CHECK(viscous.parameters.control.leg_model.viscous_friction_Nm_s_rad == 0.7f);
+  CHECK(viscous.parameters.control.toe.viscous_friction_Nm_s_rad == 0.05f);
   CHECK(traction.parameters.control.path.semi_x_m == Approx(0.1));
   CHECK(traction.firmware_leg());
   const RunSettings prescribed = read_run_settings("traction", {"experiment.drive=\"prescribed\""});
   CHECK(prescribed.parameters.leg_present == 0);
   CHECK_FALSE(prescribed.drives[1]);
+}
+
+TEST_CASE("the firmware's own defaults for its drives are the shipped drives' data") {
+  const RunSettings shipped = read_run_settings("traction", {});
+  const firmware::app::Parameters defaults;
+  const auto& m = shipped.parameters.control.leg_model;
+  CHECK(m.friction_Nm == defaults.control.leg_model.friction_Nm);
+  CHECK(m.viscous_friction_Nm_s_rad == defaults.control.leg_model.viscous_friction_Nm_s_rad);
+  CHECK(m.rotor_inertia_kg_m2 == Approx(defaults.control.leg_model.rotor_inertia_kg_m2));
+  const auto& toe = shipped.parameters.control.toe;
+  CHECK(toe.friction_Nm == defaults.control.toe.friction_Nm);
+  CHECK(toe.viscous_friction_Nm_s_rad == defaults.control.toe.viscous_friction_Nm_s_rad);
+  // Hip and knee share one model in the firmware: their drives must be the same.
+  CHECK(shipped.drives[1]->coulomb_friction_Nm == shipped.drives[2]->coulomb_friction_Nm);
+  CHECK(shipped.drives[1]->viscous_friction_Nm_s_rad ==
+        shipped.drives[2]->viscous_friction_Nm_s_rad);
 }
 
 TEST_CASE("a load in newtons overrides the one in kilograms") {
