@@ -229,3 +229,34 @@ TEST_CASE("A joint that new settings take away is neither commanded nor waited f
   REQUIRE(bench.run_until(Mode::kReady) > 0);
   CHECK(bench.controller.wish().joint[1].action == DriveAction::kExit);
 }
+
+TEST_CASE(
+    "A leg that swings through the air feels nothing, though its drives hold targets for a tick") {
+  FootController c({}, {.toe = false, .leg = true});
+  const Settings settings;
+  PerJoint<JointState> joints{};
+  for (JointState& joint : joints) joint.received = true;
+  joints[1].position_rad = 0.562f;
+  joints[2].position_rad = -1.42f;
+  REQUIRE(c.order_run(0.0f, 1.12f) == Acceptance::kAccepted);
+  float worst_N = 0.0f, fastest_rad_s = 0.0f;
+  for (int i = 0; i < 6000; ++i) {
+    const Wish& wish = c.step(joints);
+    // Joints that follow without error; the torque that moves them is the mean of the tick.
+    const LegAngles q = c.leg().set_point_rad();
+    const LegAngles v{wish.joint[1].command.velocity_rad_s, wish.joint[2].command.velocity_rad_s};
+    const LegAngles mean = c.leg().dynamics().torque_Nm(q, v, c.leg().acceleration_rad_s2());
+    const float half_tick = 0.5f * kTick_s * settings.leg.kp_Nm_rad;
+    joints[1].position_rad = q.hip_rad, joints[2].position_rad = q.knee_rad;
+    joints[1].velocity_rad_s = v.hip_rad, joints[2].velocity_rad_s = v.knee_rad;
+    joints[1].torque_Nm = mean.hip_rad - half_tick * v.hip_rad;
+    joints[2].torque_Nm = mean.knee_rad - half_tick * v.knee_rad;
+    if (c.mode() != Mode::kRunning) continue;
+    worst_N = std::max({worst_N, std::abs(c.ground().force_N.x), std::abs(c.ground().force_N.z)});
+    fastest_rad_s = std::max(fastest_rad_s, std::abs(v.knee_rad));
+    REQUIRE_FALSE(c.ground().contact);
+  }
+  CHECK(fastest_rad_s > 1.5f);
+  // A tick between the state and the commanded acceleration: 60 rad/s3 of jerk and 0.4 kg m2.
+  CHECK(worst_N < 1.0f);
+}

@@ -33,6 +33,19 @@ TEST_CASE("A started leg holds the measured posture against gravity") {
   CHECK_FALSE(walk.leg.on_path());
 }
 
+TEST_CASE("The leg's move is planned over nine ticks, in which it holds its posture") {
+  Walk walk;
+  walk.leg.go_to_path();
+  int waited = 0;
+  for (walk.run(1); waited < 50 && walk.command.hip.velocity_rad_s == 0.0f; walk.run(1)) {
+    CHECK(walk.command.hip.position_rad == kAnyPosture.hip_rad);
+    CHECK_FALSE(walk.leg.on_path());
+    ++waited;
+  }
+  CHECK(waited >= 8);
+  CHECK(waited <= 10);
+}
+
 TEST_CASE("Both joints arrive together at the top of the path, within the limits") {
   Walk walk;
   walk.leg.go_to_path();
