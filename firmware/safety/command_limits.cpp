@@ -22,7 +22,7 @@ bool confine(float& value, float low, float high) {
 /// Reduces `gain * (target - measured)` towards zero by as much of delta as it can take.
 void give_way(float gain, float measured, float& target, float& delta_Nm) {
   const float term = gain * (target - measured);
-  if (gain == 0.0f || term * delta_Nm >= 0.0f) return;
+  if (term * delta_Nm >= 0.0f) return;  // 0 without a gain, or with nothing left to take
   const float kept = absolute(delta_Nm) >= absolute(term) ? 0.0f : term + delta_Nm;
   delta_Nm -= kept - term;
   target = measured + kept / gain;
@@ -41,9 +41,9 @@ bool is_pure_damping(const JointCommand& c) {
 }
 
 LimitBits limit_targets(const JointLimits& limits, const JointState& state, JointCommand& c) {
-  LimitBits bits = 0;
-  if (confine(c.kp_Nm_rad, 0.0f, limits.kp_Nm_rad)) bits |= limit::kGain;
-  if (confine(c.kd_Nm_s_rad, 0.0f, limits.kd_Nm_s_rad)) bits |= limit::kGain;
+  const bool kp_cut = confine(c.kp_Nm_rad, 0.0f, limits.kp_Nm_rad);
+  const bool kd_cut = confine(c.kd_Nm_s_rad, 0.0f, limits.kd_Nm_s_rad);
+  LimitBits bits = kp_cut || kd_cut ? limit::kGain : 0;
   if (confine(c.velocity_rad_s, -limits.velocity_rad_s, limits.velocity_rad_s)) {
     bits |= limit::kVelocity;
   }
@@ -60,18 +60,18 @@ LimitBits limit_targets(const JointLimits& limits, const JointState& state, Join
 
 LimitBits limit_torque(const JointLimits& limits, float ceiling_Nm, const JointState& state,
                        float previous_Nm, JointCommand& c) {
-  LimitBits bits = 0;
-  if (confine(c.torque_Nm, -limits.feed_forward_Nm, limits.feed_forward_Nm)) bits |= limit::kTorque;
+  const bool off_wire = confine(c.torque_Nm, -limits.feed_forward_Nm, limits.feed_forward_Nm);
   const float wished_Nm = predicted_torque_Nm(c, state);
   const float change_Nm = limits.torque_rate_Nm_s * control::kTick_s;
   float allowed_Nm = wished_Nm;
-  if (confine(allowed_Nm, -limits.torque_Nm, limits.torque_Nm)) bits |= limit::kTorque;
+  const bool too_much = confine(allowed_Nm, -limits.torque_Nm, limits.torque_Nm);
+  LimitBits bits = off_wire || too_much ? limit::kTorque : 0;
   if (confine(allowed_Nm, -ceiling_Nm, ceiling_Nm)) bits |= limit::kOverload;
   if (!is_pure_damping(c) &&
       confine(allowed_Nm, previous_Nm - change_Nm, previous_Nm + change_Nm)) {
     bits |= limit::kTorqueRate;
   }
-  if (allowed_Nm != wished_Nm) shift_torque(limits, state, allowed_Nm - wished_Nm, c);
+  shift_torque(limits, state, allowed_Nm - wished_Nm, c);
   return bits;
 }
 
@@ -80,9 +80,7 @@ void shift_torque(const JointLimits& limits, const JointState& state, float delt
   const float before_Nm = c.torque_Nm;
   c.torque_Nm = clamp(before_Nm + delta_Nm, -limits.feed_forward_Nm, limits.feed_forward_Nm);
   delta_Nm -= c.torque_Nm - before_Nm;
-  if (delta_Nm == 0.0f) return;
   give_way(c.kp_Nm_rad, state.position_rad, c.position_rad, delta_Nm);
-  if (delta_Nm == 0.0f) return;
   give_way(c.kd_Nm_s_rad, state.velocity_rad_s, c.velocity_rad_s, delta_Nm);
 }
 

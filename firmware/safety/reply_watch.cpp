@@ -22,8 +22,7 @@ FaultBits ReplyWatch::inspect(const JointLimits& limits, const DriveData& drive,
   const std::int64_t heard_ns = heard ? state.received_ns : since_ns_;
   if (now_ns - heard_ns > kFreshness_ns) return fault::kDriveLost;
   if (!heard) return 0;
-  FaultBits found = 0;
-  if (state.error != 0) found |= fault::kDriveError;
+  FaultBits found = state.error != 0 ? fault::kDriveError : 0;
   if (state.temperature_C > kHighestTemperature_C) found |= fault::kOverTemperature;
   const bool saturated = control::absolute(state.reading_rad) >= limits.end_of_range_rad;
   if (saturated) found |= fault::kImplausibleReply;

@@ -72,11 +72,9 @@ FaultBits TorqueGate::inspect(const control::PerJoint<JointState>& joints, Mode 
 /// drive that has fallen silent, or whose commands have, drops its torque by its own time-out.
 FaultBits TorqueGate::warm(std::size_t i, const JointState& state, std::int64_t now_ns,
                            std::int64_t elapsed_ns) {
-  if (elapsed_ns > 0) {
-    const bool fresh = state.received && now_ns - state.received_ns <= kFreshness_ns;
-    const std::int64_t heated_ns = elapsed_ns < kFreshness_ns ? elapsed_ns : kFreshness_ns;
-    heat_[i].add(fresh ? state.torque_Nm : 0.0f, seconds(heated_ns), seconds(elapsed_ns));
-  }
+  const bool fresh = state.received && now_ns - state.received_ns <= kFreshness_ns;
+  const std::int64_t heated_ns = elapsed_ns < kFreshness_ns ? elapsed_ns : kFreshness_ns;
+  heat_[i].add(fresh ? state.torque_Nm : 0.0f, seconds(heated_ns), seconds(elapsed_ns));
   return heat_[i].ratio() > kOverheated ? fault::kOverload : 0;
 }
 
@@ -118,11 +116,11 @@ void TorqueGate::judge(std::size_t i, Mode mode, const JointWish& wish, const Jo
   if (out.action != DriveAction::kCommand) return;
   if (!is_finite(out.command)) {
     latched_ = true;
-    verdict_.faults |= fault::kInvalidWish;
+    verdict_.faults = fault::kInvalidWish;
   }
   if (latched_ && !is_pure_damping(out.command)) {
     out.command = {.kd_Nm_s_rad = kLimits[i].stop_kd_Nm_s_rad};
-    bits |= limit::kLatched;
+    bits = limit::kLatched;
   }
   bits |= limit_targets(kLimits[i], state, out.command);
   const float ceiling_Nm = heat_ceiling_Nm(kDrives[i], heat_[i].ratio(), kLimits[i].torque_Nm);

@@ -19,6 +19,7 @@ import argparse
 import json
 import os
 import queue
+import resource
 import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
@@ -62,7 +63,7 @@ def read_reasons(path):
     return reasons
 
 
-def judge_all(mutants, texts, the_bench, jobs):
+def judge_all(mutants, texts, the_bench, jobs, argued):
     """The verdict on each mutant, in the order given."""
     slots = queue.Queue()
     for slot in range(jobs):
@@ -75,8 +76,20 @@ def judge_all(mutants, texts, the_bench, jobs):
         finally:
             slots.put(slot)
 
+    verdicts = []
     with ThreadPoolExecutor(jobs) as workers:
-        return list(workers.map(judge, mutants))
+        for mutant, verdict in zip(mutants, workers.map(judge, mutants)):
+            verdicts.append(verdict)
+            if verdict == bench.SURVIVED and key_of(mutant) not in argued:
+                print_entry(f"SURVIVED {mutant.path}:{mutant.number}", key_of(mutant))
+            if len(verdicts) % 100 == 0:
+                print(f"{len(verdicts)} of {len(mutants)} done", flush=True)
+    return verdicts
+
+
+def print_entry(head, key):
+    """As it would stand in equivalent.txt."""
+    print("{}\nfile: {}\nline: {}\nchange: {}\n".format(head, *key), flush=True)
 
 
 def print_table(mutants, verdicts, argued):
@@ -131,20 +144,18 @@ def main():
     if not the_bench.passes_unbroken():
         print("mutate: the tests fail on the code as it is", file=sys.stderr)
         return 2
-    verdicts = judge_all(chosen, texts, the_bench, options.jobs)
+    verdicts = judge_all(chosen, texts, the_bench, options.jobs, reasons)
 
     survivors = [m for m, v in zip(chosen, verdicts)
                  if v == bench.SURVIVED and key_of(m) not in reasons]
     stale += [key_of(m) for m, v in zip(chosen, verdicts)
               if v != bench.SURVIVED and key_of(m) in reasons]
-    for m in survivors:
-        print(f"SURVIVED {m.path}:{m.number}\n  file: {key_of(m)[0]}\n  line: {key_of(m)[1]}"
-              f"\n  change: {m.what}")
     for key in stale:
-        print("STALE reason in equivalent.txt (no such mutant, or a test kills it)\n  file: {}\n"
-              "  line: {}\n  change: {}".format(*key))
+        print_entry("STALE reason in equivalent.txt: no such mutant, or a test kills it", key)
     print_table(chosen, verdicts, reasons)
-    print(f"{time.monotonic() - start_s:.0f} s with {options.jobs} at a time")
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    print(f"{time.monotonic() - start_s:.0f} s by the clock with {options.jobs} at a time, "
+          f"{used.ru_utime + used.ru_stime:.0f} s of processor time")
     return 1 if survivors or stale else 0
 
 

@@ -66,6 +66,76 @@ TEST_CASE("Each limit of the targets cuts on both sides and names itself") {
   }
 }
 
+TEST_CASE("Limits that cut together are all named") {
+  for (const float sign : {1.0f, -1.0f}) {
+    JointCommand c{sign * 3.0f, sign * 9.0f, 30e3f, 900.0f, 0.0f};
+    const JointState state = measured(sign > 0 ? 1.45f : -1.05f, 0.0f);
+    CHECK(limit_targets(kHip, state, c) ==
+          (limit::kGain | limit::kVelocity | limit::kTravel | limit::kDistance));
+    JointCommand hot{.torque_Nm = sign * 350.0f};
+    CHECK(limit_torque(kHip, 300.0f, measured(0.0f, 0.0f), 0.0f, hot) ==
+          (limit::kTorque | limit::kOverload | limit::kTorqueRate));
+    CHECK(hot.torque_Nm == Approx(sign * 100.0f));
+    hot = {.torque_Nm = sign * 310.0f};
+    CHECK(limit_torque(kHip, 300.0f, measured(0.0f, 0.0f), sign * 290.0f, hot) == limit::kOverload);
+    CHECK(hot.torque_Nm == Approx(sign * 300.0f));
+    // Beyond the wire, but not beyond the ceiling when stiffness pulls the other way.
+    hot = {-sign * 0.02f, 0.0f, 10e3f, 0.0f, sign * 450.0f};
+    CHECK(limit_torque(kHip, 300.0f, measured(0.0f, 0.0f), sign * 190.0f, hot) == limit::kTorque);
+    CHECK(hot.torque_Nm == sign * 400.0f);
+  }
+}
+
+TEST_CASE("Where the wire's range ends, targets give way: position first, speed for what is left") {
+  for (const float sign : {1.0f, -1.0f}) {
+    // The feed-forward stands at its end already; 150 Nm of stiffness, 60 of damping.
+    const JointState state = measured(0.01f, 0.1f);
+    const auto wish = [&] {
+      return JointCommand{0.01f + sign * 0.03f, 0.1f + sign * 0.6f, 5000.0f, 100.0f, 0.0f};
+    };
+    // Less feed-forward as far as it goes: nothing else moves.
+    JointCommand c = wish();
+    shift_torque(kHip, state, -sign * 400.0f, c);
+    CHECK(c.torque_Nm == -sign * 400.0f);
+    CHECK(c.position_rad == wish().position_rad);
+    // 100 more than the feed-forward takes: from stiffness, of which 50 stay.
+    c = wish();
+    shift_torque(kHip, state, -sign * 500.0f, c);
+    CHECK(c.torque_Nm == -sign * 400.0f);
+    CHECK(c.position_rad == Approx(0.01f + sign * 0.01f));
+    CHECK(c.velocity_rad_s == wish().velocity_rad_s);
+    // 150 more: all of the stiffness, none of the damping.
+    c = wish();
+    shift_torque(kHip, state, -sign * 550.0f, c);
+    CHECK(c.position_rad == Approx(0.01f));
+    CHECK(c.velocity_rad_s == Approx(0.1f + sign * 0.6f).margin(1e-5));
+    // 190 more: 20 of damping stay.
+    c = wish();
+    shift_torque(kHip, state, -sign * 590.0f, c);
+    CHECK(c.position_rad == Approx(0.01f));
+    CHECK(c.velocity_rad_s == Approx(0.1f + sign * 0.2f));
+    // More than all of it: what is there goes, no target passes what is measured.
+    c = wish();
+    shift_torque(kHip, state, -sign * 900.0f, c);
+    CHECK(c.position_rad == Approx(0.01f));
+    CHECK(c.velocity_rad_s == Approx(0.1f));
+    // The other way the terms help already, and stay as they are.
+    c = wish();
+    shift_torque(kHip, state, sign * 500.0f, c);
+    CHECK(c.torque_Nm == sign * 400.0f);
+    CHECK(c.position_rad == wish().position_rad);
+    CHECK(c.velocity_rad_s == wish().velocity_rad_s);
+    // Without gains there is nothing that could give way; with a gain of 1 there is.
+    c = {0.5f, 0.5f, 0.0f, 0.0f, 0.0f};
+    shift_torque(kHip, state, -sign * 500.0f, c);
+    CHECK(c.position_rad == 0.5f);
+    CHECK(c.velocity_rad_s == 0.5f);
+    c = {0.01f, 0.1f + sign * 3.0f, 0.0f, 1.0f, 0.0f};
+    shift_torque(kHip, state, -sign * 402.0f, c);
+    CHECK(c.velocity_rad_s == Approx(0.1f + sign * 1.0f));
+  }
+}
+
 TEST_CASE("The limit is on the whole torque, not on its parts") {
   // 400 from stiffness and -300 feed-forward make 100: nothing to cut but the wire's range.
   JointCommand c{0.1f, 0.0f, 4000.0f, 0.0f, -300.0f};

@@ -51,6 +51,8 @@ TEST_CASE("Of all sequences of up to five stages only the two right ones finish 
 TEST_CASE("Each cycle counts for itself") {
   CycleWatch watch;
   CHECK_FALSE(watch.finished());
+  watch.passed(Stage::kRead);
+  CHECK(watch.finished());
   watch.begin();
   watch.tick_due();
   for (const Stage stage : kStages) watch.passed(stage);

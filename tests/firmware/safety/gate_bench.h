@@ -45,15 +45,15 @@ inline control::Wish wish_for(control::Mode mode, std::size_t joint, control::Dr
 }
 
 /// Makes the drive report a torque, while the foot is off, until its heat ratio is there.
-inline void warm_up(TorqueGate& gate, std::size_t joint, float ratio) {
+/// @param now_ms time, which goes on by as long as that takes
+inline void warm_up(TorqueGate& gate, std::size_t joint, float ratio, std::int64_t& now_ms) {
   control::PerJoint<control::JointState> joints{};
   joints[joint].received = true;
   joints[joint].torque_Nm = 1.5f * kDrives[joint].continuous_torque_Nm;
-  std::int64_t now_ns = 1'000'000'000'000;
   while (gate.heat_ratio(static_cast<control::Joint>(joint)) < ratio) {
-    now_ns += kFreshness_ns;
-    joints[joint].received_ns = now_ns;
-    gate.inspect(joints, control::Mode::kOff, now_ns);
+    now_ms += 20;
+    joints[joint].received_ns = now_ms * kMillisecond_ns;
+    gate.inspect(joints, control::Mode::kOff, now_ms * kMillisecond_ns);
   }
 }
 

@@ -160,6 +160,40 @@ TEST_CASE("A jump smaller than the speed bound, which the speeds do not know of,
   }
 }
 
+TEST_CASE("At its very bound a jump passes") {
+  for (const std::size_t joint : {0, 1}) {
+    const JointLimits& limits = kLimits[joint];
+    // From a reading of 0, so that the difference is exact.
+    const float elapsed_s = 1e6f * 1e-9f;
+    const float reach_rad = limits.plausible_rad_s * (elapsed_s + 0.5f * control::kTick_s);
+    Replies r(joint);
+    CHECK(r.next_at(reach_rad, 2.0f * reach_rad / control::kTick_s) == 0);
+    Replies s(joint);
+    CHECK(s.next_at(std::nextafter(reach_rad, 1.0f), 2.0f * reach_rad / control::kTick_s) ==
+          fault::kImplausibleReply);
+    // The step whose remainder in the integral is the bound itself.
+    const float leak = 1.0f + control::kTick_s / kDriftMemory_s;
+    float step_rad = limits.drift_rad * leak;
+    while (step_rad / leak > limits.drift_rad) step_rad = std::nextafter(step_rad, 0.0f);
+    REQUIRE(step_rad / leak == limits.drift_rad);
+    Replies t(joint);
+    CHECK(t.next_at(step_rad, 0.0f) == 0);
+  }
+}
+
+TEST_CASE("All that is wrong with a reply is named at once") {
+  Replies r(1);
+  r.passed = {DriveAction::kCommand, {.torque_Nm = 200.0f}};
+  for (int i = 1; i < kNotFollowingTicks; ++i) REQUIRE(r.next() == 0);
+  r.state.error = 1;
+  r.state.temperature_C = 120.0f;
+  r.place(9.0f);
+  const FaultBits lasting = fault::kDriveError | fault::kOverTemperature |
+                            fault::kImplausibleReply | fault::kOutsideTravel;
+  CHECK(r.next() == (lasting | fault::kNotFollowing));
+  CHECK(r.look() == lasting);
+}
+
 TEST_CASE("A reading that stands still while its speed does not is found, and how soon") {
   // Backward Euler of dx/dt = -v - x/tau: x_n = -v tau (1 - q^n), q = 1 / (1 + 1 ms / tau).
   const double q = 1.0 / (1.0 + 1e-3 / kDriftMemory_s);

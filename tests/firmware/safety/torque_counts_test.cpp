@@ -133,7 +133,8 @@ TEST_CASE("Every torque count within the limit passes unchanged; every one beyon
   for (std::size_t joint = 0; joint < control::kJointCount; ++joint) {
     for (const float heat : kHeats) {
       safety::TorqueGate warmed({});
-      safety::test::warm_up(warmed, joint, heat);
+      std::int64_t now_ms = 0;
+      safety::test::warm_up(warmed, joint, heat, now_ms);
       const Expected expected(warmed, joint);
       for (const float stiff_Nm : {0.0f, 0.4f * expected.ceiling_Nm, -0.4f * expected.ceiling_Nm}) {
         for_every_count(joint, [&](float count_Nm) {
