@@ -9,7 +9,7 @@
 #include <string>
 
 #include "tools/trajectory/random_cases.h"
-#include "tools/trajectory/slow_check.h"
+#include "tools/trajectory/referee.h"
 #include "tools/trajectory/solve_case.h"
 
 namespace hoof::tools::trajectory {
@@ -35,6 +35,7 @@ struct Tally {
   double float_overshoot = 0;
   long slow = 0;
   long float_apart = 0;  // float's duration is not that of the rounded input: shorter or longer
+  long undecided = 0;    // slow: the last digits of the input decide between two durations
   long twins_apart = 0;  // a twin's duration differs: next to a blocked interval, by rounding
 };
 
@@ -151,36 +152,17 @@ class RandomChecker {
     tally.float_apart += std::fabs(solution.duration_s - exact_s) > 1e-3 * exact_s + 1e-6;
   }
 
+  // Is the duration the first one the slow search finds feasible?
   void compare_slowly(Family family, Tally& tally, const Input& input, const Solution& solution) {
     ++tally.slow;
-    const bool exact_only = family != Family::kStartOutside && family != Family::kLattice &&
-                            family != Family::kNoJerkLimit &&
-                            input.interface == Interface::kPosition;
-    if (!exact_only) return;
-    for (int i = 0; i < input.joints; ++i) {
-      // A sample taken on the way to a fast accelerating target may count as a start outside the
-      // limits; the brake that convention asks for is not part of the slow check.
-      if (double_->profile(i).brake_s() > 0) continue;
-      const double minimum_s = double_->minimum_duration_s(i);
-      if (shorter_is_feasible(input, i, minimum_s)) {
-        broken(tally, family, input, "axis " + std::to_string(i) + " has a shorter duration");
-      }
+    const Verdict verdict = judge(input, *double_);
+    tally.undecided += verdict == Verdict::kUndecided;
+    if (verdict == Verdict::kTooLong) broken(tally, family, input, "there is a shorter duration");
+    if (verdict == Verdict::kTooShort) broken(tally, family, input, "the duration is too short");
+    if (family != Family::kStartOutside && family != Family::kLattice &&
+        family != Family::kNoJerkLimit && input.interface == Interface::kPosition) {
+      compare_twins(tally, input, solution);
     }
-    compare_twins(tally, input, solution);
-  }
-
-  // Looks for a feasible duration clearly below the one found.
-  bool shorter_is_feasible(const Input& in, int i, double minimum_s) {
-    const AxisProblem axis = axis_of(in, i);
-    if (minimum_s == 0) return false;
-    constexpr int kSamples = 100;
-    // The slow check resolves its own lines to about 1e-15; a feasible duration must show itself.
-    constexpr double kSlack = -1e-12;
-    for (int k = 0; k < kSamples; ++k) {
-      const double t = minimum_s * (k + random_.uniform(0, 1)) / kSamples * (1 - 1e-6);
-      if (slowly_feasible(axis, t, relative_slack(axis, t, kSlack))) return true;
-    }
-    return false;
   }
 
   void compare_twins(Tally& tally, const Input& input, const Solution& solution) {
@@ -207,7 +189,7 @@ class RandomChecker {
     out_ << std::left << std::setw(20) << "family" << std::right << std::setw(9) << "cases"
          << std::setw(8) << "broken" << std::setw(12) << "end error" << std::setw(12) << "overshoot"
          << std::setw(12) << "float ov." << std::setw(12) << "float apart" << std::setw(8) << "slow"
-         << std::setw(13) << "twins apart"
+         << std::setw(11) << "undecided" << std::setw(13) << "twins apart"
          << "\n";
     long total = 0;
     for (int i = 0; i < kFamilies; ++i) {
@@ -217,8 +199,8 @@ class RandomChecker {
            << std::setw(9) << tally.cases << std::setw(8) << tally.broken << std::scientific
            << std::setprecision(1) << std::setw(12) << tally.end_error << std::setw(12)
            << tally.overshoot << std::setw(12) << tally.float_overshoot << std::defaultfloat
-           << std::setw(12) << tally.float_apart << std::setw(8) << tally.slow << std::setw(13)
-           << tally.twins_apart << "\n";
+           << std::setw(12) << tally.float_apart << std::setw(8) << tally.slow << std::setw(11)
+           << tally.undecided << std::setw(13) << tally.twins_apart << "\n";
     }
     out_ << (total == 0 ? "nothing is broken\n" : "BROKEN\n");
     return total == 0 ? 0 : 1;

@@ -9,8 +9,9 @@ namespace hoof::tools::trajectory {
 struct RandomCheckOptions {
   long count = 1'000'000;
   std::uint64_t seed = 1;
-  // Every n-th case is compared with the slow check of shorter durations (about 10 ms each) and
-  // with its mirrored, reversed and rescaled twins.
+  // Every n-th case of a family is judged by the slow search (some 30 ms each): no shorter duration
+  // of the group, and the one found feasible; and compared with its mirrored, reversed and rescaled
+  // twins.
   int slow_every = 1000;
 };
 
