@@ -105,10 +105,11 @@ CpuRunner::CpuRunner(const ElfImage& image) : machine_(std::make_unique<Machine>
   unread.bytes = 0;
   m.timings.assign(kFlashSize / 2, unread);
   uc_hook hook;
-  check(uc_hook_add(m.engine, &hook, UC_HOOK_CODE, reinterpret_cast<void*>(Machine::on_code), &m, 1, 0),
+  check(uc_hook_add(m.engine, &hook, UC_HOOK_CODE, reinterpret_cast<void*>(Machine::on_code), &m, 1,
+                    0),
         "hook code");
-  check(uc_hook_add(m.engine, &hook, UC_HOOK_MEM_READ, reinterpret_cast<void*>(Machine::on_read), &m,
-                    kFlash, kFlash + kFlashSize),
+  check(uc_hook_add(m.engine, &hook, UC_HOOK_MEM_READ, reinterpret_cast<void*>(Machine::on_read),
+                    &m, kFlash, kFlash + kFlashSize),
         "hook loads");
 }
 

@@ -1,5 +1,5 @@
-// Runs functions of a linked image on an emulated Cortex-M4F (libunicorn) and counts instructions and
-// cycles by cycle_rule.h. No peripherals and no interrupts: functions in, results out.
+// Runs functions of a linked image on an emulated Cortex-M4F (libunicorn) and counts instructions
+// and cycles by cycle_rule.h. No peripherals and no interrupts: functions in, results out.
 #pragma once
 
 #include <cstdint>

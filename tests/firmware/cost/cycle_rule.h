@@ -1,5 +1,5 @@
-// What one instruction costs on a Cortex-M4F at 168 MHz behind the flash of an STM32F405. A rule, not
-// a measurement on a board: deterministic, so that a test may gate on it.
+// What one instruction costs on a Cortex-M4F at 168 MHz behind the flash of an STM32F405. A rule,
+// not a measurement on a board: deterministic, so that a test may gate on it.
 //
 // Sources:
 //   [TRM] Arm Cortex-M4 Processor Technical Reference Manual (100166), "Processor instructions" and
@@ -8,9 +8,9 @@
 //         and 3.3 V five wait states; flash is read in lines of 128 bits; the next line is
 //         prefetched; 64 lines are cached for instructions and 8 for data.
 // Where a source gives a range the rule takes its upper end: three cycles to refill the pipeline
-// (1 to 3), twelve for an integer division (2 to 12). Loads are never pipelined, an instruction that
-// its IT block skips is charged in full, and a floating-point result used by the very next instruction
-// costs one more.
+// (1 to 3), twelve for an integer division (2 to 12). Loads are never pipelined, an instruction
+// that its IT block skips is charged in full, and a floating-point result used by the very next
+// instruction costs one more.
 #pragma once
 
 #include <cstdint>

@@ -75,8 +75,8 @@ std::uint32_t ElfImage::symbol(const std::string& name) const {
 ElfImage read_elf(const std::string& path) {
   const Reader file(path);
   const auto header = file.at<Elf32_Ehdr>(0);
-  if (std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0 ||
-      header.e_ident[EI_CLASS] != ELFCLASS32 || header.e_machine != EM_ARM) {
+  if (std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0 || header.e_ident[EI_CLASS] != ELFCLASS32 ||
+      header.e_machine != EM_ARM) {
     throw std::runtime_error(path + ": is not a 32-bit Arm ELF file");
   }
   ElfImage image;

@@ -12,7 +12,9 @@ constexpr int kJoints = HOOF_COST_JOINTS;
 using GeneratorType = Generator<float, kJoints>;
 
 alignas(GeneratorType) unsigned char storage[sizeof(GeneratorType)];
-GeneratorType& generator() { return *std::launder(reinterpret_cast<GeneratorType*>(storage)); }
+GeneratorType& generator() {
+  return *std::launder(reinterpret_cast<GeneratorType*>(storage));
+}
 
 }  // namespace
 
@@ -27,7 +29,11 @@ void cost_make(int work_per_update) {
   generator().set_work_per_update(work_per_update);
 }
 
-int cost_update() { return static_cast<int>(generator().update(cost_input, cost_output)); }
+int cost_update() {
+  return static_cast<int>(generator().update(cost_input, cost_output));
+}
 
-int cost_state_bytes() { return sizeof(GeneratorType); }
+int cost_state_bytes() {
+  return sizeof(GeneratorType);
+}
 }
