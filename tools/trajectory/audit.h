@@ -78,10 +78,16 @@ class Auditor {
     // The target counts too: a cruise's last state lies at its start.
     reach_ = std::max<long double>(1, std::fabs(displacement));
     speed_ = push_ = 1;
-    const auto largest = [](Real a, Real b) { return std::max(std::fabs(a), std::fabs(b)); };
+    const auto largest = [](Real a, Real b) -> long double {
+      return std::max(std::fabs(a), std::fabs(b));
+    };
+    // Two extremes are mixed, so rounding is that of the limits, whatever the mix comes to; and
+    // times are rounded to the size of the whole duration.
+    const long double t = profile.duration_s();
     const long double v = largest(limits_.max_velocity, limits_.min_velocity);
-    // Two extremes are mixed, so rounding is that of the limits, whatever the mix comes to.
-    position_rounding_ = kRoundings * (v * profile.duration_s() + reach_);
+    const long double a = largest(limits_.max_acceleration, limits_.min_acceleration);
+    speed_rounding_ = kRoundings * (v + t * a);
+    position_rounding_ = kRoundings * (reach_ + t * (v + t * a));
     for (int i = 0; i < profile.pieces(); ++i) {
       const auto& state = profile.piece(i).state;
       reach_ = std::max<long double>(reach_, std::fabs(state.position));
@@ -109,7 +115,7 @@ class Auditor {
 
   void compare(const Motion& end, long double p, long double v, long double a) {
     miss(end.p - p, reach_, position_rounding_);
-    miss(end.v - v, speed_, kRoundings * speed_);
+    miss(end.v - v, speed_, speed_rounding_);
     if (jerk_limited_) miss(end.a - a, push_, kRoundings * push_);  // otherwise it jumps by design
   }
 
@@ -148,7 +154,7 @@ class Auditor {
   bool armed_ = false;
   static constexpr long double kRoundings = 8 * std::numeric_limits<Real>::epsilon();
   long double reach_ = 1, speed_ = 1, push_ = 1;
-  long double position_rounding_ = 0;
+  long double speed_rounding_ = 0, position_rounding_ = 0;
   Audit audit_;
 };
 

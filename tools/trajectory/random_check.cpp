@@ -20,8 +20,10 @@ using firmware::trajectory::Synchronisation;
 
 constexpr double kDoubleOvershoot = 1e-9;  // issue 4
 constexpr double kFloatOvershoot = 1e-4;
-constexpr double kJoin = 1e-9;  // states, beyond what rounding explains
-constexpr double kFloatJoin = 1e-4;
+// States join, beyond what rounding explains. A lone motion (replan) is taken when its velocity
+// agrees to rounding; its times and accelerations then agree to the square root of that.
+constexpr double kJoin = 1e-6;
+constexpr double kFloatJoin = 2e-3;
 
 constexpr int kFamilies = static_cast<int>(Family::kCount);
 
@@ -146,7 +148,8 @@ class RandomChecker {
       broken(tally, family, input, "float: a limit is exceeded");
     }
     tally.float_coarse += solution.audit.overshoot > kFloatOvershoot;
-    if (!(solution.audit.unexplained_end_error <= kFloatJoin)) {
+    // Float cannot hold a metre in a motion of days at 1e5 m/s (family huge).
+    if (family != Family::kHuge && !(solution.audit.unexplained_end_error <= kFloatJoin)) {
       broken(tally, family, input, "float: the states do not join");
     }
     // Next to a blocked interval the last bit of float decides; such cases are counted, not judged.

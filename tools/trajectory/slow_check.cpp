@@ -30,9 +30,13 @@ Wide rising_root(const Function& function, Wide below, Wide above) {
   if (!(f_below < 0)) return below;
   if (!(f_above > 0)) return above;
   int side = 0;
+  Wide last_width = above - below;
   for (int i = 0; i < 300; ++i) {
     const Wide width = above - below;
-    Wide x = i % 3 == 2 ? below + width / 2 : below - f_below * width / (f_above - f_below);
+    // False position that does not halve the bracket in three steps gives way to halving.
+    const bool slow = i % 3 == 2 && width > last_width / 2;
+    if (i % 3 == 2) last_width = width;
+    Wide x = slow ? below + width / 2 : below - f_below * width / (f_above - f_below);
     if (!(x > below && x < above)) x = below + width / 2;
     if (!(x > below && x < above)) break;
     const Wide f = function(x);
@@ -78,7 +82,10 @@ class SlowAxis {
     if (free.highest_velocity <= std::max(v_max_, highest_end)) return free.displacement;
     const Part up = fastest_to_cruise(v0_, a0_, false);
     const Part down = fastest_to_cruise(vf_, -af_, true);
-    return up.displacement + down.displacement + v_max_ * (t - up.duration - down.duration);
+    const Wide cruise = t - up.duration - down.duration;
+    // Without the time to get there and away the velocity passes v_max by rounding only.
+    if (cruise < 0) return free.displacement;
+    return up.displacement + down.displacement + v_max_ * cruise;
   }
 
  private:
