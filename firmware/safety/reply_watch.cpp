@@ -1,5 +1,7 @@
 #include "firmware/safety/reply_watch.h"
 
+#include <algorithm>
+
 #include "firmware/control/math.h"
 
 namespace hoof::firmware::safety {
@@ -53,8 +55,7 @@ bool ReplyWatch::motion_plausible(const JointLimits& limits, const JointState& s
   const float mean_rad_s = 0.5f * (state.velocity_rad_s + last_.velocity_rad_s);
   const float by_ticks_rad = mean_rad_s * time_s;
   const float by_clock_rad = mean_rad_s * elapsed_s;
-  const float low_rad = by_ticks_rad < by_clock_rad ? by_ticks_rad : by_clock_rad;
-  const float high_rad = by_ticks_rad < by_clock_rad ? by_clock_rad : by_ticks_rad;
+  const auto [low_rad, high_rad] = std::minmax(by_ticks_rad, by_clock_rad);
   if (ticks_ <= kLongestGap_ticks) {
     drift_rad_ += moved_rad - control::clamp(moved_rad, low_rad, high_rad);
     drift_rad_ /= 1.0f + time_s / kDriftMemory_s;

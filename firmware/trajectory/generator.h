@@ -7,18 +7,19 @@
 //   Generator<float, 3> generator(0.001f);
 //   const Result result = generator.update(input, output);
 //
-// On a slow processor set_work_per_update(n) spreads a plan: at most n units (one unit: one axis
-// searched, tested or built) are done per update() while the old profile goes on, and the new one
-// starts, already complete, at the tick it was planned for. A unit is 1,100 instructions in the
-// mean and 2,150 for the longest kind, building an axis (x86, -Os, float, callgrind over 2,000
-// plans of three moving axes); at 1.5 cycles each, divisions and roots included, and 168 MHz, 20
-// us.
+// On a slow processor set_work_per_update(n) spreads a plan: at most n units are done per update()
+// while the old profile goes on, and the new one starts, already complete, at the tick it was
+// planned for. One unit validates and prepares one joint, tests or raises the common duration once,
+// lays the pieces of one joint, or anchors them to its target; a plan of j joints takes 5 j of
+// them, j + 1 more with phase synchronisation, and never more than Planner::most_units(j). Until
+// its first plan is complete a moving start loses its acceleration at the jerk limit and goes on at
+// its velocity. A stop is planned in units too: it begins 5 j / n updates after the one that finds
+// the goal bad. What a unit costs on a Cortex-M4F is measured by tests/firmware/cost.
 #pragma once
 
 #include "firmware/trajectory/input.h"
 #include "firmware/trajectory/planner.h"
 #include "firmware/trajectory/result.h"
-#include "firmware/trajectory/stop_profile.h"
 #include "firmware/trajectory/validate.h"
 
 namespace hoof::firmware::trajectory {
@@ -39,10 +40,16 @@ class Generator {
   // kHolding; or the failure of the plan, while the fallback stop is followed to standstill and
   // after. The output is always a valid sample that keeps the acceleration and jerk limits.
   Result update(const InputType& input, OutputType& output) {
-    if (!has_state_) adopt_state(input);
+    // Before anything was ever planned a goal for another number of joints may still be given.
+    if (!has_state_ || (!limits_known_ && !planning_ && input.joints != goal_.joints)) {
+      adopt_state(input);
+      if (work_per_update_ > 0) coast(input);
+    }
     new_plan_ = false;
+    // Where work is spread, comparing goals, or coasting, is the first update's share of it.
+    const bool spent = work_per_update_ > 0 && !planning_;
     if (!planning_ && (!has_goal_ || !same_goal(input))) request(input);
-    if (planning_) continue_planning();
+    if (planning_ && !spent) continue_planning();
     advance(output);
     describe(output);
     return result();
@@ -52,11 +59,9 @@ class Generator {
   // kWorking, or the failure (the running profile is then the stop from that state).
   Result plan(const InputType& input) {
     adopt_state(input);
-    if (accept(input)) {
-      begin(0);
-      while (progress_ == Result::kPlanning) progress_ = planner_.work();
-      swap();
-    }
+    take(input);
+    begin(Making::kGoal, 0);
+    complete();
     return plan_result_;
   }
 
@@ -89,11 +94,17 @@ class Generator {
   const ValidationError<Real>& validation_error() const { return validation_error_; }
 
  private:
+  enum class Making : std::uint8_t { kGoal, kStop };
+
   const Plan<Real, kMaxJoints>& running() const { return plans_[running_]; }
+
+  static int joints_of(const InputType& input) {
+    return minimum(maximum(input.joints, 0), kMaxJoints);
+  }
 
   void adopt_state(const InputType& input) {
     Plan<Real, kMaxJoints>& plan = plans_[running_];
-    plan.joints = minimum(maximum(input.joints, 0), kMaxJoints);
+    plan.joints = joints_of(input);
     for (int i = 0; i < plan.joints; ++i) {
       const auto finite_or_zero = [](Real value) { return is_finite(value) ? value : Real(0); };
       commanded_[i] = {finite_or_zero(input.position[i]), finite_or_zero(input.velocity[i]),
@@ -110,26 +121,29 @@ class Generator {
     limits_known_ = false;
   }
 
-  // Takes over the goal. False when it is refused; the stop is then running.
-  bool accept(const InputType& input) {
+  // What is followed until the first plan is ready.
+  void coast(const InputType& input) {
+    Plan<Real, kMaxJoints>& plan = plans_[running_];
+    for (int i = 0; i < plan.joints; ++i) {
+      plan.profile[i].coast(commanded_[i], input.max_jerk[i]);
+      plan.duration_s = maximum(plan.duration_s, plan.profile[i].duration_s());
+    }
+    start_running();
+    stopping_ = true;
+    new_plan_ = false;
+  }
+
+  void take(const InputType& input) {
     goal_ = input;
     has_goal_ = true;
-    validation_error_ = validate(input);
-    if (validation_error_) {
-      fail(Result::kInvalidInput);
-      return false;
-    }
-    stop_limits_ = input;
-    if (!limits_known_ && work_per_update_ > 0) {
-      limits_known_ = true;
-      stop();  // a moving start does not wait for its first plan
-    }
-    limits_known_ = true;
-    return true;
+    validation_error_ = {};
   }
 
   void request(const InputType& input) {
-    if (accept(input)) begin(updates_for(Planner<Real, kMaxJoints>::usual_units(input.joints)));
+    take(input);
+    using PlannerType = Planner<Real, kMaxJoints>;
+    begin(Making::kGoal,
+          updates_for(PlannerType::usual_units(joints_of(input), input.synchronisation)));
   }
 
   int updates_for(int units) const {
@@ -137,12 +151,54 @@ class Generator {
   }
 
   // Begins a plan to be followed `updates` from now, from where the running profile will be then.
-  void begin(int updates) {
-    updates_left_ = updates;
-    for (int i = 0; i < goal_.joints; ++i) start_[i] = commanded_after(updates, i);
-    planner_.begin(goal_, start_, plans_[1 - running_]);
+  void begin(Making making, int updates) {
+    making_ = making;
+    updates_left_ = updates_planned_ = updates;
+    const bool stop = making == Making::kStop;
+    planner_.begin(stop ? stop_goal_ : goal_, start_, plans_[1 - running_], stop);
     progress_ = Result::kPlanning;
     planning_ = true;
+  }
+
+  // One unit of planning.
+  void work() {
+    const int joint = planner_.joint_to_prepare();
+    if (joint >= 0) {
+      if (making_ == Making::kGoal && !validated(joint)) {
+        progress_ = Result::kInvalidInput;
+        return;
+      }
+      start_[joint] = commanded_after(updates_left_, joint);
+    }
+    progress_ = planner_.work();
+    const bool all_valid = joint >= 0 && joint + 1 == goal_.joints && making_ == Making::kGoal;
+    if (all_valid) remember_limits();
+  }
+
+  bool validated(int joint) {
+    if (joint == 0) {
+      validation_error_ = validate_modes(goal_);
+      const int running_joints = running().joints;
+      if (!validation_error_ && goal_.joints != running_joints) {
+        validation_error_ = {goal_.joints < running_joints ? Rule::kAtLeast : Rule::kAtMost,
+                             Quantity::kJoints, -1, Real(goal_.joints), Real(running_joints)};
+      }
+    }
+    if (!validation_error_) validation_error_ = validate_joint(goal_, joint);
+    return !validation_error_;
+  }
+
+  // The limits a stop keeps are the latest that were valid.
+  void remember_limits() {
+    stop_goal_.joints = goal_.joints;
+    stop_goal_.interface = Interface::kVelocity;
+    stop_goal_.synchronisation = Synchronisation::kNone;
+    stop_goal_.max_velocity = goal_.max_velocity;
+    stop_goal_.min_velocity = goal_.min_velocity;
+    stop_goal_.max_acceleration = goal_.max_acceleration;
+    stop_goal_.min_acceleration = goal_.min_acceleration;
+    stop_goal_.max_jerk = goal_.max_jerk;
+    limits_known_ = true;
   }
 
   State<Real> commanded_after(int updates, int i) const {
@@ -157,50 +213,53 @@ class Generator {
   }
 
   void continue_planning() {
+    if (work_per_update_ <= 0) return complete();
     if (updates_left_ == 0) {
-      if (work_per_update_ <= 0) {
-        while (progress_ == Result::kPlanning) progress_ = planner_.work();
-      }
-      if (progress_ != Result::kPlanning) return swap();
-      // Blocked intervals cost more work than usual: once more, with time for the worst case.
-      begin(updates_for(planner_.most_units()));
+      if (progress_ == Result::kWorking) return swap();
+      // Blocked intervals cost more work than usual: once more, from a later start.
+      const int most = Planner<Real, kMaxJoints>::most_units(joints_of(goal_));
+      begin(making_, minimum(2 * updates_planned_, updates_for(most)));
     }
-    for (int unit = 0; unit < work_per_update_ && progress_ == Result::kPlanning; ++unit) {
-      progress_ = planner_.work();
-    }
+    for (int unit = 0; unit < work_per_update_ && progress_ == Result::kPlanning; ++unit) work();
     --updates_left_;
+    if (is_failure(progress_)) fail(progress_);
+  }
+
+  // The plan, and the stop if it fails, at once.
+  void complete() {
+    while (planning_) {
+      while (progress_ == Result::kPlanning) work();
+      if (is_failure(progress_)) {
+        fail(progress_);
+      } else {
+        swap();
+      }
+    }
   }
 
   // The completed plan becomes the running one, at once and as a whole.
   void swap() {
-    if (is_failure(progress_)) return fail(progress_);
     running_ = 1 - running_;
-    stopping_ = false;
-    plan_result_ = Result::kWorking;
+    stopping_ = making_ == Making::kStop;
+    if (!stopping_) plan_result_ = Result::kWorking;
     start_running();
   }
 
+  // Stops within the last limits that were valid; at once when there never were any (then nothing
+  // was ever commanded either).
   void fail(Result cause) {
     plan_result_ = cause;
-    stop();
-  }
-
-  // Replaces the running profile by a stop within the last limits that were valid; at once when
-  // there never were any (then nothing was ever commanded either).
-  void stop() {
+    if (limits_known_) {
+      begin(Making::kStop, updates_for(Planner<Real, kMaxJoints>::usual_units(
+                               stop_goal_.joints, Synchronisation::kNone)));
+      return;
+    }
     Plan<Real, kMaxJoints>& plan = plans_[running_];
+    for (int i = 0; i < plan.joints; ++i) plan.profile[i].rest(commanded_[i].position);
     plan.duration_s = 0;
     plan.straight_line = false;
-    for (int i = 0; i < plan.joints; ++i) {
-      if (limits_known_ && i < stop_limits_.joints) {
-        build_stop(commanded_[i], limits_of(stop_limits_, i), plan.profile[i]);
-      } else {
-        plan.profile[i].rest(commanded_[i].position);
-      }
-      plan.duration_s = maximum(plan.duration_s, plan.profile[i].duration_s());
-    }
-    stopping_ = true;
     start_running();
+    stopping_ = true;
   }
 
   void start_running() {
@@ -288,8 +347,8 @@ class Generator {
   bool has_state_ = false;
   bool has_goal_ = false;
   bool limits_known_ = false;
-  InputType goal_{};         // of the latest request; the planner reads it
-  InputType stop_limits_{};  // the latest that was valid
+  InputType goal_{};       // of the latest request; the planner reads it
+  InputType stop_goal_{};  // standstill within the latest limits that were valid; targets are 0
   ValidationError<Real> validation_error_;
 
   std::array<Plan<Real, kMaxJoints>, 2> plans_;
@@ -304,8 +363,10 @@ class Generator {
 
   Planner<Real, kMaxJoints> planner_;
   std::array<State<Real>, kMaxJoints> start_;  // of the plan being made
+  Making making_ = Making::kGoal;
   bool planning_ = false;
   Result progress_ = Result::kPlanning;
+  int updates_planned_ = 0;
   int updates_left_ = 0;
 };
 

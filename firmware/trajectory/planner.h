@@ -33,12 +33,17 @@ class Planner {
   using InputType = Input<Real, kMaxJoints>;
   using States = std::array<State<Real>, kMaxJoints>;
 
-  // Starts planning from `start` to the target in `input` (validated by the caller), with `plan`
-  // to be filled. Neither may change until work() has finished.
-  void begin(const InputType& input, const States& start, Plan<Real, kMaxJoints>& plan) {
+  // Starts planning from `start` to the target in `input`, with `plan` to be filled. `input` may
+  // not change until work() has finished. Its values and `start` are read, joint by joint, by the
+  // unit that prepares that joint: the caller may fill and validate them just before
+  // (joint_to_prepare()). `always`: a joint whose limits forbid the motion stands still instead of
+  // failing the plan.
+  void begin(const InputType& input, const States& start, Plan<Real, kMaxJoints>& plan,
+             bool always) {
     input_ = &input;
     start_ = &start;
     plan_ = &plan;
+    always_ = always;
     plan.joints = input.joints;
     plan.straight_line = false;
     stage_ = Stage::kPrepare;
@@ -48,10 +53,14 @@ class Planner {
     duration_s_ = input.minimum_duration_s;
     if (input.duration_step_s > 0) duration_s_ = next_step(duration_s_);
     axis_duration_s_.fill(duration_s_);
+    stands_still_.fill(false);
   }
 
-  // Does one unit: prepares, searches or builds one axis. kPlanning until the plan is complete,
-  // then kWorking, or the failure.
+  // The joint the next work() will prepare, or -1.
+  int joint_to_prepare() const { return stage_ == Stage::kPrepare ? joint_ : -1; }
+
+  // Does one unit: prepares one axis, tests a duration with it, or builds a part of its profile.
+  // kPlanning until the plan is complete, then kWorking, or the failure.
   Result work() {
     switch (stage_) {
       case Stage::kPrepare:
@@ -65,23 +74,33 @@ class Planner {
         return search_alone();
       case Stage::kSearchTogether:
         return search_together();
+      case Stage::kCompare:
+        compare(joint_);
+        return Result::kPlanning;
       case Stage::kStraighten:
         straighten();
-        stage_ = Stage::kBuild;
+        stage_ = Stage::kMove;
         return Result::kPlanning;
-      case Stage::kBuild:
-        build(joint_);
-        return next_joint() ? finish() : Result::kPlanning;
+      case Stage::kMove:
+        move(joint_);
+        return Result::kPlanning;
+      case Stage::kLay:
+        return lay(joint_);
+      case Stage::kAnchor:
+        plan_->profile[joint_].anchor_end();
+        return next_profile();
     }
     return Result::kNoSolution;
   }
 
   // The units a plan takes when no axis has a blocked interval in the way; work() may need more.
-  static constexpr int usual_units(int joints) { return 4 * joints + 1; }
+  static constexpr int usual_units(int joints, Synchronisation synchronisation) {
+    return 6 * joints + (synchronisation == Synchronisation::kPhase ? joints + 1 : 0);
+  }
 
   // No plan takes more units than this.
-  int most_units() const {
-    return 2 * input_->joints + 1 + kTestsPerJoint * input_->joints * input_->joints;
+  static constexpr int most_units(int joints) {
+    return 5 * joints + 1 + kTestsPerJoint * joints * joints;
   }
 
   // The shortest duration of one axis alone; after begin() and the first `joints` units.
@@ -91,7 +110,16 @@ class Planner {
   }
 
  private:
-  enum class Stage : std::uint8_t { kPrepare, kSearchAlone, kSearchTogether, kStraighten, kBuild };
+  enum class Stage : std::uint8_t {
+    kPrepare,
+    kSearchAlone,
+    kSearchTogether,
+    kCompare,
+    kStraighten,
+    kMove,
+    kLay,
+    kAnchor
+  };
 
   // An axis has two blocked intervals at most, so it can push the common duration up three times;
   // after every push all axes are tested again. The rest is for steps of duration that jump over
@@ -136,9 +164,12 @@ class Planner {
   }
 
   Result search_alone() {
-    const Real t = axes_[joint_].first_feasible(axis_duration_s_[joint_]);
-    if (t < 0) return failure(joint_);
-    if (!is_finite(t)) return Result::kOutOfRange;
+    Real t = axes_[joint_].first_feasible(axis_duration_s_[joint_]);
+    if (!(t >= 0) || !is_finite(t)) {
+      if (!always_) return t < 0 ? failure(joint_) : Result::kOutOfRange;
+      stands_still_[joint_] = true;
+      t = axis_duration_s_[joint_];
+    }
     Real& duration_s = axis_duration_s_[joint_];
     if (t > duration_s * (1 + kRounding<Real>)) {
       duration_s = next_step(t);
@@ -148,7 +179,7 @@ class Planner {
     }
     duration_s_ = maximum(duration_s_, duration_s);
     tests_ = 0;
-    if (next_joint()) stage_ = Stage::kBuild;
+    if (next_joint()) stage_ = Stage::kMove;
     return Result::kPlanning;
   }
 
@@ -176,36 +207,44 @@ class Planner {
     if (agreed_ < input_->joints) return Result::kPlanning;
     joint_ = 0;
     axis_duration_s_.fill(duration_s_);
-    stage_ =
-        input_->synchronisation == Synchronisation::kPhase ? Stage::kStraighten : Stage::kBuild;
+    stage_ = input_->synchronisation == Synchronisation::kPhase ? Stage::kCompare : Stage::kMove;
     return Result::kPlanning;
   }
 
   // Phase synchronisation: when all states are one vector times a scalar, solve for the scalar with
   // the tightest of the scaled limits. If it fits the common duration, every axis follows it.
-  void straighten() {
-    int reference = 0;
-    for (int i = 1; i < input_->joints; ++i) {
-      if (largest_term(problem(i)) > largest_term(problem(reference))) reference = i;
+  // compare() takes in one joint a call.
+  void compare(int i) {
+    if (i == 0) {
+      reference_ = 0;
+      for (int k = 1; k < input_->joints; ++k) {
+        if (largest_term(k) > largest_term(reference_)) reference_ = k;
+      }
+      common_ = problem(reference_);
     }
-    AxisProblem<Real> common = problem(reference);
-    for (int i = 0; i < input_->joints; ++i) {
-      if (axes_[i].brake().count > 0) return;
-      if (!scale_of(i, reference, scale_[i])) return;
-      tighten(problem(i).limits, scale_[i], common.limits);
-    }
-    const Real jerk = common.limits.max_jerk;
-    if (jerk == 0 || common.limits.max_acceleration == 0 || common.limits.min_acceleration == 0) {
+    if (axes_[i].brake().count > 0 || !scale_of(i, reference_, scale_[i])) {
+      joint_ = 0;
+      stage_ = Stage::kMove;
       return;
     }
-    line_.prepare(input_->interface, common);
+    tighten(limits_of(*input_, i), scale_[i], common_.limits);
+    if (next_joint()) stage_ = Stage::kStraighten;
+  }
+
+  void straighten() {
+    const AxisLimits<Real>& limits = common_.limits;
+    if (limits.max_jerk == 0 || limits.max_acceleration == 0 || limits.min_acceleration == 0) {
+      return;
+    }
+    line_.prepare(input_->interface, common_);
     const Real t = line_.first_feasible(duration_s_);
     plan_->straight_line = t >= 0 && t <= duration_s_ * (1 + kRounding<Real>);
   }
 
-  static Real largest_term(const AxisProblem<Real>& axis) {
-    return maximum(magnitude(axis.displacement),
-                   maximum(magnitude(axis.velocity), magnitude(axis.target_velocity)));
+  Real largest_term(int i) const {
+    const State<Real>& start = (*start_)[i];
+    return maximum(magnitude(input_->target_position[i] - start.position),
+                   maximum(magnitude(start.velocity), magnitude(input_->target_velocity[i])));
   }
 
   // The factor from the reference's motion to joint i's, if all its terms agree on one.
@@ -216,7 +255,7 @@ class Planner {
                             a.target_acceleration};
     const Real r_terms[] = {r.displacement, r.velocity, r.target_velocity, r.acceleration,
                             r.target_acceleration};
-    const Real size = largest_term(r);
+    const Real size = largest_term(reference);
     if (!(size > 0)) return false;
     for (int k = 0; k < 3; ++k) {
       if (magnitude(r_terms[k]) == size) scale = a_terms[k] / r_terms[k];
@@ -245,17 +284,32 @@ class Planner {
         common.min_acceleration, -by * (same ? -limits.min_acceleration : limits.max_acceleration));
   }
 
-  void build(int i) {
-    const bool line = plan_->straight_line;
-    const Axis<Real>& axis = line ? line_ : axes_[i];
-    axis.motion(mix_);
+  void move(int i) {
     const State<Real>& start = (*start_)[i];
-    State<Real> end{input_->target_position[i], input_->target_velocity[i],
-                    input_->target_acceleration[i]};
+    stage_ = Stage::kLay;
+    if (stands_still_[i]) return plan_->profile[i].rest(start.position);
+    const Axis<Real>& axis = plan_->straight_line ? line_ : axes_[i];
+    axis.motion(mix_);
+    const State<Real> end{input_->target_position[i], input_->target_velocity[i],
+                          input_->target_acceleration[i]};
+    plan_->profile[i].begin(start, end, axis.brake(), axis_duration_s_[i]);
+  }
+
+  Result lay(int i) {
     using End = typename Profile<Real>::End;
     const bool position = input_->interface == Interface::kPosition;
-    plan_->profile[i].build(start, end, axis.brake(), mix_, line ? scale_[i] : Real(1),
-                            axis_duration_s_[i], position ? End::kAtTarget : End::kWhereItLeads);
+    if (!stands_still_[i]) {
+      plan_->profile[i].lay(mix_, plan_->straight_line ? scale_[i] : Real(1),
+                            position ? End::kAtTarget : End::kWhereItLeads);
+    }
+    if (!position) return next_profile();
+    stage_ = Stage::kAnchor;
+    return Result::kPlanning;
+  }
+
+  Result next_profile() {
+    stage_ = Stage::kMove;
+    return next_joint() ? finish() : Result::kPlanning;
   }
 
   Result finish() {
@@ -269,8 +323,12 @@ class Planner {
   std::array<Axis<Real>, kMaxJoints> axes_;
   std::array<Real, kMaxJoints> axis_duration_s_{};
   std::array<Real, kMaxJoints> scale_{};
+  std::array<bool, kMaxJoints> stands_still_{};
+  AxisProblem<Real> common_{};  // of the straight line
+  int reference_ = 0;           // the joint it is measured by
   Axis<Real> line_;
   Mix<Real> mix_;
+  bool always_ = false;
   Real duration_s_ = 0;
   int joint_ = 0;
   int tests_ = 0;

@@ -35,26 +35,58 @@ class Profile {
     Real jerk;
   };
 
-  // From `start`: the brake, then `mix` times `scale`; on to `end` (a target), or to wherever that
-  // leads with the velocity and acceleration of `end`.
+  // A profile is built in three steps, so that a slow processor can take them one by one: begin(),
+  // then lay(), then, if it is to end at a target, anchor_end().
+  //
+  // From `start`: the brake, then `mix` times `scale`, `duration_s` in all; on to `end` (a target),
+  // or to wherever that leads with the velocity and acceleration of `end`.
   enum class End { kAtTarget, kWhereItLeads };
-  void build(const State<Real>& start, const State<Real>& end, const Brake<Real>& brake,
-             const Mix<Real>& mix, Real scale, Real duration_s, End where) {
+  void begin(const State<Real>& start, const State<Real>& end, const Brake<Real>& brake,
+             Real duration_s) {
     begin(start, end);
     for (int i = 0; i < brake.count; ++i) append(brake.phase[i], 1);
     brake_s_ = elapsed_s_;
+    duration_s_ = duration_s;
+  }
+
+  void lay(const Mix<Real>& mix, Real scale, End where) {
     if (mix.lower.count() == 0 || mix.upper.count() == 0) {
       const Signal<Real>& only = mix.upper.count() > 0 ? mix.upper : mix.lower;
       for (int i = 0; i < only.count(); ++i) append(only.phase(i), scale);
     } else {
-      append_mixed(mix, scale, duration_s - brake_s_);
+      append_mixed(mix, scale, duration_s_ - brake_s_);
     }
-    duration_s_ = duration_s;
-    if (where == End::kAtTarget) {
-      anchor_end();
-    } else {
-      end_.position = start_position_ + state_.position;
+    if (where == End::kWhereItLeads) end_.position = start_position_ + state_.position;
+  }
+
+  // The states of the last pieces are counted back from the target, so that rounding grows from
+  // both ends to the middle: a slow end after a fast start is as precise as the slow end allows.
+  void anchor_end() {
+    Real sums[kMaxPieces];  // of the speeds up to a piece: what its rounding is proportional to
+    Real sum = 0;
+    for (int i = 0; i < count_; ++i) sums[i] = sum += magnitude(pieces_[i].state.velocity);
+    State<Real> state{end_.position - start_position_, end_.velocity, end_.acceleration};
+    sum = magnitude(state.velocity);
+    for (int i = count_ - 1; i > 0 && sum < sums[i]; --i) {
+      Piece& piece = pieces_[i];
+      const Real t = piece.duration_s;
+      state.acceleration = piece.state.acceleration;
+      state.velocity -= t * (state.acceleration + t * piece.jerk / 2);
+      state.position -= t * (state.velocity + t * (state.acceleration / 2 + t * piece.jerk / 6));
+      piece.state = state;
+      sum += magnitude(state.velocity);
     }
+  }
+
+  // The acceleration goes to zero with `jerk` (a magnitude); then on at that velocity.
+  void coast(const State<Real>& start, Real jerk) {
+    begin(start, {start.position, start.velocity, 0});
+    const Real duration_s = magnitude(start.acceleration) / jerk;
+    if (duration_s > 0 && is_finite(duration_s)) {
+      append({duration_s, start.acceleration, start.acceleration > 0 ? -jerk : jerk}, 1);
+      end_ = {start.position + state_.position, state_.velocity, 0};
+    }
+    duration_s_ = elapsed_s_;
   }
 
   // Standing still at a position.
@@ -210,25 +242,6 @@ class Profile {
       append(mixed(upper.rest, lower.rest, weight, step), scale);
       upper.spend(step);
       lower.spend(step);
-    }
-  }
-
-  // The states of the last pieces are counted back from the target, so that rounding grows from
-  // both ends to the middle: a slow end after a fast start is as precise as the slow end allows.
-  void anchor_end() {
-    Real sums[kMaxPieces];  // of the speeds up to a piece: what its rounding is proportional to
-    Real sum = 0;
-    for (int i = 0; i < count_; ++i) sums[i] = sum += magnitude(pieces_[i].state.velocity);
-    State<Real> state{end_.position - start_position_, end_.velocity, end_.acceleration};
-    sum = magnitude(state.velocity);
-    for (int i = count_ - 1; i > 0 && sum < sums[i]; --i) {
-      Piece& piece = pieces_[i];
-      const Real t = piece.duration_s;
-      state.acceleration = piece.state.acceleration;
-      state.velocity -= t * (state.acceleration + t * piece.jerk / 2);
-      state.position -= t * (state.velocity + t * (state.acceleration / 2 + t * piece.jerk / 6));
-      piece.state = state;
-      sum += magnitude(state.velocity);
     }
   }
 

@@ -56,18 +56,16 @@ class Validator {
  public:
   explicit Validator(const Input<Real, kMaxJoints>& input) : in_(input) {}
 
-  ValidationError<Real> first_error() {
+  ValidationError<Real> modes() {
     check(Quantity::kJoints, Real(in_.joints), Rule::kAtLeast, Real(1));
     check(Quantity::kJoints, Real(in_.joints), Rule::kAtMost, Real(kMaxJoints));
     non_negative(Quantity::kMinimumDuration, in_.minimum_duration_s);
     non_negative(Quantity::kDurationStep, in_.duration_step_s);
-    for (joint_ = 0; !error_ && joint_ < in_.joints; ++joint_) check_joint();
     return error_;
   }
 
- private:
-  void check_joint() {
-    const int i = joint_;
+  ValidationError<Real> joint(int i) {
+    joint_ = i;
     const bool position = in_.interface == Interface::kPosition;
     finite(Quantity::kPosition, in_.position[i]);
     finite(Quantity::kVelocity, in_.velocity[i]);
@@ -81,8 +79,10 @@ class Validator {
     non_positive(Quantity::kMinAcceleration, in_.min_acceleration[i]);
     check(Quantity::kMaxJerk, in_.max_jerk[i], Rule::kAtLeast, Real(0));  // may be infinite
     check_target(position);
+    return error_;
   }
 
+ private:
   void check_target(bool position) {
     const int i = joint_;
     const Real af = in_.target_acceleration[i];
@@ -141,11 +141,24 @@ class Validator {
 
 }  // namespace internal
 
-// The first broken rule, or an error that tests false. Start states outside the limits are not an
-// error: the generator brakes first.
+// The first broken rule among the values that belong to no joint, or an error that tests false.
+template <typename Real, int kMaxJoints>
+ValidationError<Real> validate_modes(const Input<Real, kMaxJoints>& input) {
+  return internal::Validator<Real, kMaxJoints>(input).modes();
+}
+
+// The same among the values of one joint. Start states outside the limits are not an error: the
+// generator brakes first.
+template <typename Real, int kMaxJoints>
+ValidationError<Real> validate_joint(const Input<Real, kMaxJoints>& input, int joint) {
+  return internal::Validator<Real, kMaxJoints>(input).joint(joint);
+}
+
 template <typename Real, int kMaxJoints>
 ValidationError<Real> validate(const Input<Real, kMaxJoints>& input) {
-  return internal::Validator<Real, kMaxJoints>(input).first_error();
+  ValidationError<Real> error = validate_modes(input);
+  for (int i = 0; !error && i < input.joints; ++i) error = validate_joint(input, i);
+  return error;
 }
 
 inline const char* name(Quantity quantity) {

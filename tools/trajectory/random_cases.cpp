@@ -30,13 +30,20 @@ double Random::log_uniform(double low, double high) {
   return std::exp(uniform(std::log(low), std::log(high)));
 }
 
+double Random::normal(double sigma) {
+  double sum = 0;  // of twelve: variance one, and never beyond six
+  for (int i = 0; i < 12; ++i) sum += uniform(-0.5, 0.5);
+  return sigma * sum;
+}
+
 int Random::integer(int low, int high) {
   return low + static_cast<int>(next() % static_cast<std::uint64_t>(high - low + 1));
 }
 
 const char* name(Family family) {
   constexpr const char* kNames[] = {"base",
-                                    "asymmetric",
+                                    "asym",
+                                    "hoof",
                                     "rest_to_rest",
                                     "target_moving",
                                     "tiny",
@@ -46,12 +53,13 @@ const char* name(Family family) {
                                     "zero_displacement",
                                     "blocked",
                                     "replan",
+                                    "replan_f32",
                                     "start_outside",
                                     "no_jerk_limit",
-                                    "velocity",
-                                    "phase",
+                                    "velocity_control",
+                                    "phase_sync",
                                     "minimum_duration",
-                                    "discrete",
+                                    "discrete_duration",
                                     "no_sync"};
   return kNames[static_cast<int>(family)];
 }
@@ -95,22 +103,33 @@ class InputMaker {
         rises ? random_.uniform(v_min, v_max - swing) : random_.uniform(v_min + swing, v_max);
   }
 
-  void start(int i) {
-    admissible(i, 1, input_.velocity[i], input_.acceleration[i]);
-    thin_out(input_.velocity[i], input_.acceleration[i]);
-  }
+  void start(int i) { state(i, 1, input_.velocity[i], input_.acceleration[i]); }
+  void target(int i) { state(i, -1, input_.target_velocity[i], input_.target_acceleration[i]); }
 
-  void target(int i) {
-    admissible(i, -1, input_.target_velocity[i], input_.target_acceleration[i]);
-    thin_out(input_.target_velocity[i], input_.target_acceleration[i]);
-  }
-
-  void positions(int i, double scale) {
-    input_.position[i] = random_.uniform(-scale, scale);
-    input_.target_position[i] = random_.uniform(-scale, scale);
+  void positions(int i, double sigma) {
+    input_.position[i] = random_.normal(sigma);
+    input_.target_position[i] = random_.normal(sigma);
   }
 
  private:
+  // Half of them spread over all that is admissible; half slow, cut off at the limit where they are
+  // beyond it, as in the case files.
+  void state(int i, int side, double& velocity, double& acceleration) {
+    if (random_.chance(0.5)) {
+      admissible(i, side, velocity, acceleration);
+    } else {
+      const auto slow = [&](double low, double high) {
+        return std::clamp(random_.normal(1), low, high);
+      };
+      velocity = slow(input_.min_velocity[i], input_.max_velocity[i]);
+      acceleration = slow(input_.min_acceleration[i], input_.max_acceleration[i]);
+      const double beyond =
+          velocity + side * acceleration * std::fabs(acceleration) / (2 * input_.max_jerk[i]);
+      if (beyond > input_.max_velocity[i] || beyond < input_.min_velocity[i]) acceleration = 0;
+    }
+    thin_out(velocity, acceleration);
+  }
+
   // Zeros meet other borders of the solver than general values.
   void thin_out(double& velocity, double& acceleration) {
     if (random_.chance(0.3)) acceleration = 0;
@@ -121,7 +140,7 @@ class InputMaker {
   Input input_;
 };
 
-constexpr Scales kUsual{5, 16, 16, 16};
+constexpr Scales kUsual{3.5, 16, 16, 16};
 
 void moving_axis(InputMaker& maker, int i, const Scales& scales, bool asymmetric, bool to_rest) {
   maker.limits(i, scales, asymmetric);
@@ -130,21 +149,41 @@ void moving_axis(InputMaker& maker, int i, const Scales& scales, bool asymmetric
   if (!to_rest) maker.target(i);
 }
 
+void hoof_axis(Random& random, InputMaker& maker, int i) {
+  Input& in = maker.input();
+  in.set_limits(i, random.log_uniform(0.8, 20), random.log_uniform(5, 300),
+                random.log_uniform(200, 80'000));
+  if (random.chance(0.4)) {
+    in.min_velocity[i] *= random.uniform(0.3, 1);
+    in.min_acceleration[i] *= random.uniform(0.3, 1);
+  }
+  maker.positions(i, 0.7);
+  maker.start(i);
+  if (random.chance(0.4)) maker.target(i);
+}
+
 void tiny_axis(Random& random, InputMaker& maker, int i) {
   Input& in = maker.input();
-  maker.limits(i, kUsual, random.chance(0.5));
-  maker.positions(i, kUsual.position);
+  maker.limits(i, {5, 10, 10, 10}, random.chance(0.5));
+  maker.positions(i, 5);
   in.target_position[i] =
       in.position[i] + random.log_uniform(1e-12, 1e-3) * (random.chance(0.5) ? 1 : -1);
-  if (random.chance(0.5)) return;
+  if (random.chance(0.4)) return;
   in.velocity[i] = random.log_uniform(1e-14, 1e-4) * (random.chance(0.5) ? 1 : -1);
   in.acceleration[i] = random.log_uniform(1e-14, 1e-3) * (random.chance(0.5) ? 1 : -1);
 }
 
 void huge_axis(Random& random, InputMaker& maker, int i) {
-  const Scales scales{3000, random.log_uniform(10, 1e6), random.log_uniform(10, 1e6),
-                      random.log_uniform(10, 1e6)};
-  moving_axis(maker, i, scales, random.chance(0.5), random.chance(0.5));
+  Input& in = maker.input();
+  const auto scale = [&] { return random.log_uniform(10, 1e6); };
+  in.set_limits(i, scale(), scale(), scale());
+  if (random.chance(0.5)) {
+    in.min_velocity[i] = -scale();
+    in.min_acceleration[i] = -scale();
+  }
+  maker.positions(i, 1000);
+  if (random.chance(0.6)) maker.start(i);
+  if (random.chance(0.4)) maker.target(i);
 }
 
 void lattice_axis(Random& random, InputMaker& maker, int i) {
@@ -210,14 +249,17 @@ void blocked_axis(Random& random, InputMaker& maker, int i) {
 }
 
 // The state of a running profile some way along, in double or rounded to float, with the same goal.
-Input replan(Random& random) {
-  Input input = random_input(random.chance(0.5) ? Family::kTargetMoving : Family::kBase, random);
+Input replan(Random& random, int joints, bool as_float) {
+  constexpr Family kParents[] = {Family::kTargetMoving, Family::kBase, Family::kHoof};
+  Input input = random_input(kParents[random.integer(0, 2)], random, joints);
   const auto generator =
       std::make_unique<firmware::trajectory::Generator<double, kMaxJoints>>(0.001);
   generator->plan(input);
   firmware::trajectory::Output<double, kMaxJoints> output;
-  generator->at_time(generator->duration_s() * random.uniform(0.05, 0.999), output);
-  const bool as_float = random.chance(0.5);
+  // In the file anything from the start to the last microsecond.
+  const double share =
+      random.chance(0.5) ? random.uniform(0.05, 0.999) : 1 - random.log_uniform(1e-7, 1e-1);
+  generator->at_time(generator->duration_s() * share, output);
   const auto rounded = [&](double x) { return as_float ? static_cast<float>(x) : x; };
   for (int i = 0; i < input.joints; ++i) {
     input.position[i] = rounded(output.position[i]);
@@ -229,9 +271,13 @@ Input replan(Random& random) {
 
 void outside_axis(Random& random, InputMaker& maker, int i) {
   Input& in = maker.input();
-  moving_axis(maker, i, kUsual, random.chance(0.5), random.chance(0.5));
-  in.velocity[i] *= random.uniform(0.5, 3);
-  in.acceleration[i] *= random.uniform(0.5, 3);
+  moving_axis(maker, i, {3.5, 8, 8, 8}, random.chance(0.5), random.chance(0.5));
+  const auto beyond = [&](double low, double high) {
+    const double of_limit = random.uniform(-2.5, 2.5);
+    return of_limit > 0 ? of_limit * high : -of_limit * low;
+  };
+  in.velocity[i] = beyond(in.min_velocity[i], in.max_velocity[i]);
+  in.acceleration[i] = beyond(in.min_acceleration[i], in.max_acceleration[i]);
 }
 
 void collinear(Random& random, InputMaker& maker) {
@@ -254,6 +300,8 @@ void make_axis(Family family, Random& random, InputMaker& maker, int i) {
     case Family::kRestToRest:
       maker.limits(i, kUsual, random.chance(0.3));
       return maker.positions(i, kUsual.position);
+    case Family::kHoof:
+      return hoof_axis(random, maker, i);
     case Family::kTargetMoving:
       return moving_axis(maker, i, kUsual, random.chance(0.5), false);
     case Family::kTiny:
@@ -267,6 +315,10 @@ void make_axis(Family family, Random& random, InputMaker& maker, int i) {
     case Family::kZeroDisplacement:
       moving_axis(maker, i, kUsual, random.chance(0.5), random.chance(0.5));
       in.target_position[i] = in.position[i];
+      if (random.chance(0.3)) {
+        in.target_velocity[i] = in.velocity[i];
+        in.acceleration[i] = in.target_acceleration[i] = 0;
+      }
       return;
     case Family::kBlocked:
       return blocked_axis(random, maker, i);
@@ -284,11 +336,50 @@ void make_axis(Family family, Random& random, InputMaker& maker, int i) {
   }
 }
 
+// Nearest float, but not beyond a limit it is not beyond now.
+void round_to_float(Input& in) {
+  for (int i = 0; i < in.joints; ++i) {
+    for (auto* vector : {&in.position, &in.target_position, &in.max_velocity, &in.min_velocity,
+                         &in.max_acceleration, &in.min_acceleration, &in.max_jerk}) {
+      (*vector)[i] = static_cast<float>((*vector)[i]);
+    }
+    for (auto* vector :
+         {&in.velocity, &in.acceleration, &in.target_velocity, &in.target_acceleration}) {
+      const float nearest = static_cast<float>((*vector)[i]);
+      (*vector)[i] =
+          std::fabs(nearest) <= std::fabs((*vector)[i]) ? nearest : std::nextafter(nearest, 0.0f);
+    }
+  }
+}
+
+int random_joints(Random& random) {
+  if (random.chance(0.4)) return 1;
+  return random.chance(0.1) ? random.integer(5, kMaxJoints) : random.integer(2, 4);
+}
+
+void set_modes(Family family, Random& random, Input& in) {
+  if (family == Family::kVelocity) {
+    in.interface = Interface::kVelocity;
+    if (random.chance(0.5)) in.synchronisation = Synchronisation::kNone;
+    for (int i = 0; i < in.joints; ++i) {
+      if (random.chance(0.1)) in.acceleration[i] *= random.uniform(1, 2);
+    }
+  }
+  if (family == Family::kNoSync) in.synchronisation = Synchronisation::kNone;
+  if (family == Family::kMinimumDuration) in.minimum_duration_s = random.log_uniform(0.5, 50);
+  if (family == Family::kDiscrete) {
+    constexpr double kSteps_s[] = {0.001, 0.002, 0.005, 0.01};
+    in.duration_step_s = kSteps_s[random.integer(0, 3)];
+  }
+}
+
 }  // namespace
 
-Input random_input(Family family, Random& random) {
-  if (family == Family::kReplan) return replan(random);
-  InputMaker maker(random, random.chance(0.4) ? 1 : random.integer(2, 4));
+Input random_input(Family family, Random& random, int joints) {
+  if (family == Family::kReplan || family == Family::kReplanFloat) {
+    return replan(random, joints, family == Family::kReplanFloat);
+  }
+  InputMaker maker(random, joints > 0 ? joints : random_joints(random));
   Input& in = maker.input();
   if (family == Family::kPhase) {
     collinear(random, maker);
@@ -296,15 +387,16 @@ Input random_input(Family family, Random& random) {
     return in;
   }
   for (int i = 0; i < in.joints; ++i) make_axis(family, random, maker, i);
-  if (family == Family::kVelocity) {
-    in.interface = Interface::kVelocity;
-    if (random.chance(0.5)) in.synchronisation = Synchronisation::kNone;
-  }
-  if (family == Family::kNoSync) in.synchronisation = Synchronisation::kNone;
-  if (family == Family::kMinimumDuration) in.minimum_duration_s = random.log_uniform(0.5, 50);
-  if (family == Family::kDiscrete) {
-    constexpr double kSteps_s[] = {0.001, 0.002, 0.005, 0.01};
-    in.duration_step_s = kSteps_s[random.integer(0, 3)];
+  // Half the numbers of the case files are floats.
+  const bool exact = family == Family::kExactLimits || family == Family::kTiny;
+  if (!exact && random.chance(0.5)) round_to_float(in);
+  set_modes(family, random, in);
+  // A rounded limit may be just below the velocity a target's acceleration needs.
+  if (validate(in)) {
+    for (int i = 0; i < in.joints; ++i) {
+      in.target_velocity[i] /= 2;
+      in.target_acceleration[i] /= 2;
+    }
   }
   return in;
 }

@@ -21,6 +21,41 @@ struct Travel {
   Wide highest_velocity = 0;
 };
 
+// The x in [below, above] with function(x) = 0, function rising from negative to positive: false
+// position with the Illinois rule, down to the resolution of x.
+template <typename Function>
+Wide rising_root(const Function& function, Wide below, Wide above) {
+  Wide f_below = function(below);
+  Wide f_above = function(above);
+  if (!(f_below < 0)) return below;
+  if (!(f_above > 0)) return above;
+  int side = 0;
+  Wide last_width = above - below;
+  for (int i = 0; i < 300; ++i) {
+    const Wide width = above - below;
+    // False position that does not halve the bracket in three steps gives way to halving.
+    const bool slow = i % 3 == 2 && width > last_width / 2;
+    if (i % 3 == 2) last_width = width;
+    Wide x = slow ? below + width / 2 : below - f_below * width / (f_above - f_below);
+    if (!(x > below && x < above)) x = below + width / 2;
+    if (!(x > below && x < above)) break;
+    const Wide f = function(x);
+    if (f == 0) return x;
+    if (f < 0) {
+      below = x;
+      f_below = f;
+      if (side < 0) f_above /= 2;
+      side = -1;
+    } else {
+      above = x;
+      f_above = f;
+      if (side > 0) f_below /= 2;
+      side = 1;
+    }
+  }
+  return above;
+}
+
 class SlowAxis {
  public:
   explicit SlowAxis(const AxisProblem& axis, bool mirrored)
@@ -39,18 +74,18 @@ class SlowAxis {
   Wide smallest_gain(Wide t) const { return travel(t, -far(t), v0_, a0_, af_).velocity_gain; }
 
   Wide largest_displacement(Wide t) const {
-    Wide below = -far(t);
-    Wide above = far(t);
-    for (int i = 0; i < 100; ++i) {
-      const Wide r = (below + above) / 2;
-      (travel(t, r, v0_, a0_, af_).velocity_gain < vf_ - v0_ ? below : above) = r;
-    }
-    const Travel free = travel(t, (below + above) / 2, v0_, a0_, af_);
+    const auto excess = [&](Wide r) {
+      return travel(t, r, v0_, a0_, af_).velocity_gain - (vf_ - v0_);
+    };
+    const Travel free = travel(t, rising_root(excess, -far(t), far(t)), v0_, a0_, af_);
     const Wide highest_end = std::max(v0_, vf_);
     if (free.highest_velocity <= std::max(v_max_, highest_end)) return free.displacement;
     const Part up = fastest_to_cruise(v0_, a0_, false);
     const Part down = fastest_to_cruise(vf_, -af_, true);
-    return up.displacement + down.displacement + v_max_ * (t - up.duration - down.duration);
+    const Wide cruise = t - up.duration - down.duration;
+    // Without the time to get there and away the velocity passes v_max by rounding only.
+    if (cruise < 0) return free.displacement;
+    return up.displacement + down.displacement + v_max_ * cruise;
   }
 
  private:
@@ -72,10 +107,7 @@ class SlowAxis {
     Wide above = below + 1;
     const auto gain = [&](Wide t) { return axis.travel(t, axis.far(t), v, a, 0); };
     while (gain(above).velocity_gain < v_max_ - v) above *= 2;
-    for (int i = 0; i < 100; ++i) {
-      const Wide t = (below + above) / 2;
-      (gain(t).velocity_gain < v_max_ - v ? below : above) = t;
-    }
+    above = rising_root([&](Wide t) { return gain(t).velocity_gain - (v_max_ - v); }, below, above);
     return {above, gain(above).displacement};
   }
 
@@ -135,19 +167,26 @@ EndSlack relative_slack(const AxisProblem& axis, double duration_s, double relat
   return {velocity, velocity * duration_s};
 }
 
-bool slowly_feasible(const AxisProblem& axis, double duration_s, const EndSlack& slack) {
+SlowMargins slow_margins(const AxisProblem& axis, double duration_s) {
   const Wide t = duration_s;
-  const Wide ramp = std::fabs(axis.target_acceleration - axis.acceleration) / axis.limits.max_jerk;
-  if (t < ramp - std::fabs(slack.velocity) / axis.limits.max_acceleration) return false;
   const SlowAxis upper(axis, false);
   const SlowAxis lower(axis, true);
   const Wide gain = axis.target_velocity - axis.velocity;
-  if (gain > upper.largest_gain(t) + slack.velocity ||
-      gain < upper.smallest_gain(t) - slack.velocity) {
-    return false;
-  }
-  return axis.displacement <= upper.largest_displacement(t) + slack.position &&
-         axis.displacement >= -lower.largest_displacement(t) - slack.position;
+  SlowMargins margins;
+  margins.ramp = static_cast<double>(t - std::fabs(axis.target_acceleration - axis.acceleration) /
+                                             axis.limits.max_jerk);
+  margins.velocity =
+      static_cast<double>(std::min(upper.largest_gain(t) - gain, gain - upper.smallest_gain(t)));
+  const Wide displacement = axis.displacement;
+  margins.position = static_cast<double>(std::min(upper.largest_displacement(t) - displacement,
+                                                  displacement + lower.largest_displacement(t)));
+  return margins;
+}
+
+bool slowly_feasible(const AxisProblem& axis, double duration_s, const EndSlack& slack) {
+  const SlowMargins margins = slow_margins(axis, duration_s);
+  return margins.ramp >= -std::fabs(slack.velocity) / axis.limits.max_acceleration &&
+         margins.velocity >= -slack.velocity && margins.position >= -slack.position;
 }
 
 }  // namespace hoof::tools::trajectory

@@ -156,7 +156,7 @@ TEST_CASE("work spread over updates gives the same motion later") {
       if (result == Result::kFinished && finished_at < 0) finished_at = k;
       if (output.new_plan && !output.stopping && first_plan_at < 0) first_plan_at = k;
     }
-    const int latency = (4 * kJoints + 1 + units - 1) / units;
+    const int latency = (6 * kJoints + units - 1) / units + 1;
     CHECK(first_plan_at == latency);
     CHECK(finished_at - first_plan_at + 1 ==
           static_cast<int>(std::ceil(at_once.duration_s() / kPeriod_s)));
