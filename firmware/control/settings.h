@@ -5,8 +5,9 @@
 namespace hoof::firmware::control {
 
 /// Units of planning per tick and generator (toe, leg): a plan is spread so that a tick of 1 ms on
-/// the board holds it beside everything else. A toe's move then starts 5 ticks after its order, the
-/// leg's 9 (trajectory/generator.h); set points never wait for it, they go on as they were.
+/// the board holds it beside everything else. A toe's move then starts some 6 ticks after its
+/// order, the leg's 12 (trajectory/planner.h); set points never wait for it, they go on as they
+/// were.
 inline constexpr int kPlanningUnitsPerTick = 1;
 
 struct ToeSettings {

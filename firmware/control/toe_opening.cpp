@@ -79,13 +79,16 @@ void ToeOpening::watch_move(const JointState& toe) {
 
 /// way/v + v/a + a/j is the duration where speed and acceleration reach their limits. Where they do
 /// not, it is longer than that by up to w^2 / (4 a v), w = a^2/j <= v, or 0.19 a/j (speed without
-/// ever reaching a): a/(4 j) covers all. A plan under way has to be finished before the move's own.
+/// ever reaching a): a/(4 j) covers all. A plan under way has to be finished before the move's own,
+/// and a tick goes by before either.
 float ToeOpening::longest_move_s(float way_rad) const {
-  constexpr int kPlan = trajectory::Planner<float, 1>::usual_units(1) / kPlanningUnitsPerTick + 1;
+  using Planner = trajectory::Planner<float, 1>;
+  constexpr int kUnits = Planner::usual_units(1, trajectory::Synchronisation::kTime);
+  constexpr int kPlan = kUnits / kPlanningUnitsPerTick + 1;
   const float v = settings_.speed_rad_s;
   const float a = settings_.acceleration_rad_s2;
   return way_rad / v + v / a + 1.25f * a / settings_.jerk_rad_s3 +
-         static_cast<float>(2 * kPlan) * period_s_;
+         static_cast<float>(2 * (kPlan + 1)) * period_s_;
 }
 
 }  // namespace hoof::firmware::control
