@@ -51,7 +51,7 @@ class TorqueGate {
   /// @param ticks SYNC numbers since the last call, 1 unless some were missed
   /// @return faults found now (also latched)
   control::FaultBits inspect(const control::PerJoint<control::JointState>& joints,
-                             control::Mode mode, std::int64_t now_ns, std::uint32_t ticks = 1);
+                             control::Mode mode, std::int64_t now_ns, std::uint32_t ticks);
 
   /// Judges one wish, once per tick.
   const Verdict& check(const control::Wish& wish,

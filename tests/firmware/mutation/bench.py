@@ -61,7 +61,7 @@ class Bench:
         return self._link_and_run(self._own_first(mutant.path), units, place)
 
     def _judge_header(self, mutant, place):
-        for own in (_name(mutant.path) + "_test", _NUMBERS):
+        for own in dict.fromkeys((_name(mutant.path) + "_test", _NUMBERS)):
             if own not in self.tests:
                 continue
             test = self._rebuild(f"{self.plan['tests']}/{own}.cpp", place)

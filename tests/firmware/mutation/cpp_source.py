@@ -39,6 +39,7 @@ class Source:
         self.tokens = tokens_of(text)
         self.partner = self._pair_brackets()
         self.in_body = self._find_bodies()
+        self.asserted = self._find_assertions()
 
     def _pair_brackets(self):
         partner, waiting = {}, []
@@ -75,6 +76,11 @@ class Source:
             if token.text == "}" and token.kind == "operator":
                 around.pop()
         return innermost
+
+    def _find_assertions(self):
+        """Spans of text in static_asserts: of them nothing gets into a program."""
+        return [(token.start, self.tokens[self.partner[i + 1]].end)
+                for i, token in enumerate(self.tokens) if token.text == "static_assert"]
 
     def spaced(self, i):
         """Whether the token stands between spaces, as binary operators do."""

@@ -21,6 +21,8 @@ def mutants_of(source):
     for start, end, replacement in sorted(_edits(source)):
         if source.text[start:end] == replacement or (start, end, replacement) in seen:
             continue
+        if any(first <= start < last for first, last in source.asserted):
+            continue
         seen.add((start, end, replacement))
         found.append(_described(source, start, end, replacement))
     return found

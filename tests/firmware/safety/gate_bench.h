@@ -32,7 +32,7 @@ struct Watched {
     for (std::size_t i = 0; i < control::kJointCount; ++i) {
       if (static_cast<int>(i) != silent) joints[i].received_ns = now_ms * kMillisecond_ns;
     }
-    return gate.inspect(joints, mode, now_ms * kMillisecond_ns);
+    return gate.inspect(joints, mode, now_ms * kMillisecond_ns, 1);
   }
 };
 
@@ -53,7 +53,7 @@ inline void warm_up(TorqueGate& gate, std::size_t joint, float ratio, std::int64
   while (gate.heat_ratio(static_cast<control::Joint>(joint)) < ratio) {
     now_ms += 20;
     joints[joint].received_ns = now_ms * kMillisecond_ns;
-    gate.inspect(joints, control::Mode::kOff, now_ms * kMillisecond_ns);
+    gate.inspect(joints, control::Mode::kOff, now_ms * kMillisecond_ns, 1);
   }
 }
 

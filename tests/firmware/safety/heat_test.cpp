@@ -101,7 +101,7 @@ TEST_CASE("A toe asked for more than it bears for ever gets what it bears, witho
   for (int ms = 10; ms <= 4'000'000; ms += 10) {  // every tenth tick is enough
     for (JointState& joint : joints) joint.received_ns = ms * kMillisecond_ns;
     joints[0].torque_Nm = torque_Nm;
-    REQUIRE(gate.inspect(joints, Mode::kReady, ms * kMillisecond_ns) == 0);
+    REQUIRE(gate.inspect(joints, Mode::kReady, ms * kMillisecond_ns, 1) == 0);
     const Verdict& verdict = gate.check(wish, joints);
     torque_Nm = verdict.torque_Nm[0];
     highest = std::max(highest, gate.heat_ratio(Joint::kToe));
@@ -166,11 +166,11 @@ TEST_CASE("At its very bound heat is no overload") {
   for (const bool beyond : {false, true}) {
     TorqueGate gate({});
     control::PerJoint<JointState> joints{};
-    gate.inspect(joints, Mode::kOff, 1);
+    gate.inspect(joints, Mode::kOff, 1, 1);
     joints[0].received = true;
     joints[0].received_ns = elapsed_ns + 1;
     joints[0].torque_Nm = beyond ? torque_Nm + 0.01f : torque_Nm;
-    const control::FaultBits found = gate.inspect(joints, Mode::kOff, elapsed_ns + 1);
+    const control::FaultBits found = gate.inspect(joints, Mode::kOff, elapsed_ns + 1, 1);
     CHECK(found == (beyond ? control::fault::kOverload : 0));
     CHECK((gate.heat_ratio(Joint::kToe) == kOverheated) == !beyond);
   }
@@ -196,9 +196,9 @@ TEST_CASE("Only a fresh reply heats, and for no longer than drives hold a comman
     control::PerJoint<JointState> joints{};
     joints[0].received = c.received;
     joints[0].torque_Nm = 18.0f;
-    gate.inspect(joints, Mode::kOff, 0);
+    gate.inspect(joints, Mode::kOff, 0, 1);
     joints[0].received_ns = c.elapsed_ns - c.age_ns;
-    gate.inspect(joints, Mode::kOff, c.elapsed_ns);
+    gate.inspect(joints, Mode::kOff, c.elapsed_ns, 1);
     const double elapsed_s = 1e-9 * static_cast<double>(c.elapsed_ns);
     const double expected = 4.0 * c.heated_s / 300.0 / (1.0 + elapsed_s / 300.0);
     CHECK(gate.heat_ratio(Joint::kToe) == Approx(expected).epsilon(1e-4).margin(1e-12));
@@ -206,7 +206,7 @@ TEST_CASE("Only a fresh reply heats, and for no longer than drives hold a comman
     // Short steps heat for all of their time.
     for (int i = 1; i <= 200; ++i) {
       joints[0].received_ns = c.elapsed_ns + i * kMillisecond_ns;
-      gate.inspect(joints, Mode::kOff, joints[0].received_ns);
+      gate.inspect(joints, Mode::kOff, joints[0].received_ns, 1);
     }
     const double more = c.received ? 4.0 * 0.2 / 300.0 : 0.0;
     CHECK(gate.heat_ratio(Joint::kToe) == Approx(expected + more).epsilon(0.01).margin(1e-12));
@@ -219,12 +219,12 @@ TEST_CASE("A clock that stands still neither heats nor cools") {
   joints[0].received = true;
   joints[0].torque_Nm = 18.0f;
   joints[0].received_ns = 5'000 * kMillisecond_ns;
-  gate.inspect(joints, Mode::kOff, 5'000 * kMillisecond_ns);
+  gate.inspect(joints, Mode::kOff, 5'000 * kMillisecond_ns, 1);
   const float before = gate.heat_ratio(Joint::kToe);
   CHECK(before > 0.0f);
-  for (int i = 0; i < 1000; ++i) gate.inspect(joints, Mode::kOff, 5'000 * kMillisecond_ns);
+  for (int i = 0; i < 1000; ++i) gate.inspect(joints, Mode::kOff, 5'000 * kMillisecond_ns, 1);
   CHECK(gate.heat_ratio(Joint::kToe) == before);
   joints[0].torque_Nm = 0.0f;
-  gate.inspect(joints, Mode::kOff, 305'000 * kMillisecond_ns);
+  gate.inspect(joints, Mode::kOff, 305'000 * kMillisecond_ns, 1);
   CHECK(gate.heat_ratio(Joint::kToe) == Approx(before / 2.0f).epsilon(1e-3));
 }

@@ -87,7 +87,7 @@ TEST_CASE("A ceiling fits its drive: not above its peak, above what it bears, wi
   CHECK_FALSE(fits(18.01f, 10e3f));
   CHECK_FALSE(fits(9.0f, 10e3f));
   CHECK(fits(9.01f, 10e3f));
-  CHECK(fits(13.0f, 4001.0f));
+  CHECK(fits(13.0f, 4000.0f));  // 4 Nm a tick, to the last bit
   CHECK_FALSE(fits(13.0f, 3999.0f));
   for (std::size_t joint = 0; joint < 3; ++joint) {
     CHECK(ceiling_fits(kLimits[joint], kDrives[joint]));

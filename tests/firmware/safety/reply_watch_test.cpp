@@ -261,6 +261,72 @@ TEST_CASE("Any honest motion passes: random speeds, codes of the wire, a lagging
   }
 }
 
+TEST_CASE("Lost replies are gaps that the speeds bridge") {
+  for (const float way_rad : {0.040f, 0.040f - 0.021f, 0.040f + 0.023f}) {
+    Replies r(1);
+    r.state.velocity_rad_s = 4.0f;
+    r.state.reading_rad += 0.5e-3f * 4.0f;
+    REQUIRE(r.next() == 0);
+    // Nine ticks without a reply, then one: 10 ms of way. A step leaves 1 / 1.1 of it.
+    for (int i = 0; i < 9; ++i) {
+      r.now_ns += kMillisecond_ns;
+      REQUIRE(r.look() == 0);
+    }
+    r.state.reading_rad += way_rad;
+    CHECK(r.next() == (way_rad > 0.06f ? fault::kImplausibleReply : 0));
+  }
+}
+
+TEST_CASE(
+    "Between two replies, time by SYNC and by the local clock may differ: either is believed") {
+  // 10 ms by the clock, one tick; 4 rad/s: 4 to 40 mrad are honest. 20 * 1.01 = 20.2 more is not.
+  struct Case {
+    float way_rad;
+    bool passes;
+  };
+  for (const float sign : {1.0f, -1.0f}) {
+    for (const Case& c :
+         {Case{0.004f, true}, Case{0.020f, true}, Case{0.040f, true}, Case{0.0600f, true},
+          Case{0.0604f, false}, Case{-0.0160f, true}, Case{-0.0164f, false}}) {
+      INFO("way " << sign * c.way_rad);
+      Replies r(1);
+      r.state.velocity_rad_s = sign * 4.0f;
+      r.state.reading_rad += sign * 0.5e-3f * 4.0f;
+      REQUIRE(r.next() == 0);
+      r.state.reading_rad += sign * c.way_rad;
+      CHECK(r.next(1, 10 * kMillisecond_ns) == (c.passes ? 0 : fault::kImplausibleReply));
+      // Nothing of an honest way stays behind, all of what is beyond does.
+      Replies s = r;
+      const float left_rad = c.way_rad > 0.040f   ? (c.way_rad - 0.040f) / 1.01f
+                             : c.way_rad < 0.004f ? (c.way_rad - 0.004f) / 1.01f
+                                                  : 0.0f;
+      const float side = left_rad < 0.0f ? -1.0f : 1.0f;
+      const float more_rad = 0.0202f - std::abs(left_rad);
+      r.state.reading_rad += sign * (0.004f + side * (more_rad - 1e-5f));
+      s.state.reading_rad += sign * (0.004f + side * (more_rad + 1e-5f));
+      CHECK(r.next() == 0);
+      CHECK(s.next() == fault::kImplausibleReply);
+    }
+  }
+}
+
+TEST_CASE("A plant slower or faster than the local clock, and SYNC that pauses, are no fault") {
+  for (const std::int64_t clock_ns : {std::int64_t{300'000}, 3 * kMillisecond_ns}) {
+    Replies r(1);
+    r.state.velocity_rad_s = 1.8f;
+    r.state.reading_rad += 0.5e-3f * 1.8f;
+    REQUIRE(r.next() == 0);
+    for (int i = 0; i < 500; ++i) {
+      r.state.reading_rad += 1.8e-3f;
+      REQUIRE(r.next(1, clock_ns) == 0);
+    }
+    for (int i = 0; i < 50; ++i) {
+      r.state.reading_rad += 1.8e-3f * 15.0f;
+      REQUIRE(r.next(1, 15 * kMillisecond_ns) == 0);
+    }
+  }
+}
+
 TEST_CASE("Lost replies and missed SYNC are gaps that the speeds bridge; longer ones are let be") {
   Replies r(1);
   r.state.velocity_rad_s = 4.0f;

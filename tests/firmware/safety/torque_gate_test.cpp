@@ -39,7 +39,7 @@ TEST_CASE("A drive that never answers is lost 20 ms after the start of watching"
   FaultBits found = 0;
   int ms = 0;
   while (found == 0 && ms < 100) {
-    found = gate.inspect(joints, Mode::kHoming, (1000 + ms++) * kMillisecond_ns);
+    found = gate.inspect(joints, Mode::kHoming, (1000 + ms++) * kMillisecond_ns, 1);
   }
   CHECK(found == fault::kDriveLost);
   CHECK(ms == 22);  // 0 ... 20 ms pass, 21 ms is too long
@@ -53,18 +53,18 @@ TEST_CASE("A reply from before the start of watching does not count, neither for
     joint.received_ns = 5 * kMillisecond_ns;
     joint.error = 1;
   }
-  CHECK(gate.inspect(joints, Mode::kOff, 900 * kMillisecond_ns) == 0);
-  CHECK(gate.inspect(joints, Mode::kHoming, 1000 * kMillisecond_ns) == 0);
-  CHECK(gate.inspect(joints, Mode::kHoming, 1020 * kMillisecond_ns) == 0);
-  CHECK(gate.inspect(joints, Mode::kHoming, 1021 * kMillisecond_ns) == fault::kDriveLost);
+  CHECK(gate.inspect(joints, Mode::kOff, 900 * kMillisecond_ns, 1) == 0);
+  CHECK(gate.inspect(joints, Mode::kHoming, 1000 * kMillisecond_ns, 1) == 0);
+  CHECK(gate.inspect(joints, Mode::kHoming, 1020 * kMillisecond_ns, 1) == 0);
+  CHECK(gate.inspect(joints, Mode::kHoming, 1021 * kMillisecond_ns, 1) == fault::kDriveLost);
 }
 
 TEST_CASE("Nothing is expected of drives while the mode does not use them") {
   TorqueGate gate({});
   control::PerJoint<JointState> joints{};
   for (const Mode mode : {Mode::kOff, Mode::kEmergencyOff, Mode::kFault}) {
-    CHECK(gate.inspect(joints, mode, 0) == 0);
-    CHECK(gate.inspect(joints, mode, 1'000'000'000'000) == 0);
+    CHECK(gate.inspect(joints, mode, 0, 1) == 0);
+    CHECK(gate.inspect(joints, mode, 1'000'000'000'000, 1) == 0);
   }
 }
 
@@ -73,8 +73,8 @@ TEST_CASE("Drives are watched in every mode that uses them") {
     INFO("mode " << int(mode));
     TorqueGate gate({});
     control::PerJoint<JointState> joints{};
-    CHECK(gate.inspect(joints, mode, 0) == 0);
-    CHECK(gate.inspect(joints, mode, 21 * kMillisecond_ns) == fault::kDriveLost);
+    CHECK(gate.inspect(joints, mode, 0, 1) == 0);
+    CHECK(gate.inspect(joints, mode, 21 * kMillisecond_ns, 1) == fault::kDriveLost);
   }
 }
 
@@ -86,7 +86,7 @@ TEST_CASE("Joints that the rig does not have are neither watched nor commanded")
   joints[0].torque_Nm = 0.0f;
   for (int ms = 0; ms < 100; ++ms) {
     joints[0].received_ns = ms * kMillisecond_ns;
-    CHECK(gate.inspect(joints, Mode::kReady, ms * kMillisecond_ns) == 0);
+    CHECK(gate.inspect(joints, Mode::kReady, ms * kMillisecond_ns, 1) == 0);
   }
   const auto& verdict =
       gate.check(wish_for(Mode::kReady, 1, DriveAction::kCommand, {.torque_Nm = 5.0f}), joints);
@@ -298,6 +298,20 @@ TEST_CASE("After an emergency stop only exit passes, until the reset") {
   const auto& verdict =
       w.gate.check(wish_for(Mode::kReady, 0, DriveAction::kCommand, {.torque_Nm = 1.0f}), w.joints);
   CHECK(verdict.joint[0].command.torque_Nm == 1.0f);
+}
+
+TEST_CASE("A new gate has seen nothing, lets nothing go, and is not latched") {
+  const TorqueGate gate({});
+  CHECK(gate.verdict().faults == 0);
+  CHECK(gate.verdict().active_limits() == 0);
+  for (std::size_t i = 0; i < kJointCount; ++i) {
+    CHECK(gate.verdict().joint[i].action == DriveAction::kExit);
+    CHECK(gate.verdict().torque_Nm[i] == 0.0f);
+    CHECK(gate.heat_ratio(static_cast<Joint>(i)) == 0.0f);
+  }
+  CHECK_FALSE(gate.latched());
+  CHECK_FALSE(gate.emergency_pressed());
+  CHECK(gate.interventions() == 0);
 }
 
 TEST_CASE("The e-stop line stops while pressed, and no reset passes before it is let go") {
