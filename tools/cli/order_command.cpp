@@ -48,9 +48,11 @@ void carry_out(const CommandOptions& options) {
   const auto idle = [&bus] { bus.wait(1'000'000); };
   if (options.word == kEmergencyStop) {
     const auto timeout_ns = std::int64_t(options.timeout_s * 1e9);
-    std::cout << "stopped; mode " << press_emergency_stop(bus, clock, timeout_ns, idle) << "\n";
+    const std::string mode = press_emergency_stop(bus, clock, timeout_ns, idle);
+    std::cout << "stopped; mode " << mode << "\n";
   } else {
-    std::cout << "accepted; mode " << give_order(bus, clock, request_of(options), idle) << "\n";
+    const std::string mode = give_order(bus, clock, request_of(options), idle);
+    std::cout << "accepted; mode " << mode << "\n";
   }
 }
 
