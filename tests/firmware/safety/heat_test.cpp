@@ -156,8 +156,10 @@ TEST_CASE("At its very bound heat is no overload") {
   for (int tries = 0; tries < 50; ++tries) {
     elapsed_ns += 1'000'000;
     torque_Nm = 1157.0f;  // 1.1 = (T / 9)^2 0.02 / 300
-    while (ratio_after(torque_Nm, elapsed_ns) > kOverheated) torque_Nm -= 0.01f;
-    while (ratio_after(torque_Nm, elapsed_ns) < kOverheated && torque_Nm < 1200.0f) {
+    while (ratio_after(torque_Nm, elapsed_ns) > kOverheated && torque_Nm > 1150.0f) {
+      torque_Nm -= 0.01f;
+    }
+    while (ratio_after(torque_Nm, elapsed_ns) < kOverheated && torque_Nm < 1160.0f) {
       torque_Nm = std::nextafter(torque_Nm, 2000.0f);
     }
     if (ratio_after(torque_Nm, elapsed_ns) == kOverheated) break;
