@@ -3,9 +3,11 @@
 namespace hoof::firmware::control {
 namespace {
 
-/// Faults after which the toe drive may have lost its count.
-constexpr FaultBits kZeroDoubtful =
-    fault::kDriveLost | fault::kDriveError | fault::kImplausibleReply | fault::kHomingFailed;
+/// Faults after which the toe drive may have lost its count; one that restarts for want of supply
+/// shows as lost torque first.
+constexpr FaultBits kZeroDoubtful = fault::kDriveLost | fault::kDriveError |
+                                    fault::kImplausibleReply | fault::kNotFollowing |
+                                    fault::kHomingFailed | fault::kBrownOut;
 
 LegAngles positions(const PerJoint<JointState>& joints) {
   return {joints[index(Joint::kHip)].position_rad, joints[index(Joint::kKnee)].position_rad};
