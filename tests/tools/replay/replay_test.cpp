@@ -2,10 +2,11 @@
 
 #include "tools/replay/replay.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "hil_bridge/recording.h"
+#include "hil_bridge/bus_log.h"
 #include "tests/hil_bridge/rigid_bench.h"
 #include "tests/tools/run/scratch_folder.h"
 #include "tools/log/decoded_frame.h"
