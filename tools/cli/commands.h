@@ -9,10 +9,13 @@ namespace hoof::tools {
 // One function per command, each in a file of its own: adds the command to `app` and arranges
 // that parsing it fills `invocation`.
 void add_bed_command(CLI::App& app, Invocation& invocation);
+void add_compare_command(CLI::App& app, Invocation& invocation);
 void add_dbc_command(CLI::App& app, Invocation& invocation);
 void add_faults_command(CLI::App& app, Invocation& invocation);
+void add_log_command(CLI::App& app, Invocation& invocation);
 void add_order_command(CLI::App& app, Invocation& invocation);  // hoof command
 void add_param_command(CLI::App& app, Invocation& invocation);
+void add_replay_command(CLI::App& app, Invocation& invocation);
 void add_report_command(CLI::App& app, Invocation& invocation);
 void add_sinkage_command(CLI::App& app, Invocation& invocation);
 void add_study_command(CLI::App& app, Invocation& invocation);

@@ -11,6 +11,7 @@
 #include "sim/config/config_error.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/invocation.h"
+#include "tools/run/differs.h"
 #include "tools/run/errors.h"
 #include "tools/trajectory/trajectory_command.h"
 
@@ -49,6 +50,9 @@ int run_invocation(const Invocation& invocation) {
     return EXIT_SUCCESS;
   } catch (const Interrupted& stop) {
     return complain(stop.what(), stop.exit_status());
+  } catch (const Differs& result) {
+    std::cout << result.what() << std::endl;
+    return Differs::kExitStatus;
   } catch (const UserError& error) {
     return complain(error.what(), ExitStatus::kUserError);
   } catch (const hoof::sim::ConfigError& error) {
@@ -84,6 +88,9 @@ int main(int argc, char** argv) {
   add_dbc_command(app, invocation);
   add_trajectory_command(app);
   add_report_command(app, invocation);
+  add_log_command(app, invocation);
+  add_replay_command(app, invocation);
+  add_compare_command(app, invocation);
   add_version_command(app, invocation);
 
   try {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "hil_bridge/recording_facts.h"
+#include "tools/run/output_file.h"
 #include "tools/run/sha256.h"
 #include "tools/run/version.h"
 
@@ -40,6 +42,8 @@ Recorder::Recorder(const RunSettings& run, const std::filesystem::path& folder, 
   start.code_version = std::string(build_version().code);
   start.firmware_hash = sha256_hex_of_file("/proc/self/exe");
   telemetry_.write(start);
+  write_file(folder / bridge::kRecordingFactsFile,
+             to_json(bridge::recording_facts(run.bus, run.coupling.exchange_s, run.parameters)));
 }
 
 std::vector<CsvCell> Recorder::cells(const bridge::TickRecord& r) const {

@@ -1,13 +1,12 @@
 #include "tools/report/report.h"
 
-#include <cmath>
 #include <string_view>
 #include <vector>
 
-#include "tools/report/assets.h"
 #include "tools/report/display_unit.h"
 #include "tools/report/headline.h"
 #include "tools/report/html.h"
+#include "tools/report/page.h"
 #include "tools/report/plot_groups.h"
 #include "tools/report/run_data.h"
 #include "tools/run/column_unit.h"
@@ -17,8 +16,6 @@ namespace hoof::tools {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr int kPlotDigits = 6;  // a plot of 2,000 pixels shows four; two more for zooming
 
 std::string title(const RunData& data) {
   static const Json::json_pointer kKind("/experiment/kind");
@@ -73,15 +70,6 @@ std::string resolution_section(const RunData& data) {
     html += "</ul></div>";
   }
   return html + "</section>\n";
-}
-
-std::string json_numbers(const std::vector<double>& values, double factor) {
-  std::string json = "[";
-  for (const double value : values) {
-    if (json.size() > 1) json += ',';
-    json += std::isfinite(value) ? format_significant(factor * value, kPlotDigits) : "null";
-  }
-  return json + "]";
 }
 
 std::string json_phases(const SampleTable& samples, const std::vector<double>& time_s) {
@@ -173,32 +161,15 @@ std::string results_sections(const RunData& data) {
   return html;
 }
 
-std::string script(std::string_view text, std::string_view attributes = "") {
-  return "<script" + std::string(attributes) + ">" + std::string(text) + "</script>\n";
-}
-
 }  // namespace
 
 std::string make_report(const std::filesystem::path& run_folder) {
   const RunData data = read_run_data(run_folder);
   const std::vector<PlotGroup> groups = group_plots(data.samples);
-  std::string html =
-      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<meta name=\"color-scheme\" content=\"light dark\">\n"
-      // An icon of no bytes keeps browsers from asking for favicon.ico.
-      "<link rel=\"icon\" href=\"data:,\">\n";
-  html += element("title", "hoof: " + title(data)) + "\n<style>\n";
-  html += assets::uPlot_min_css;
-  html += assets::page_css;
-  html += "</style>\n</head>\n<body>\n" + element("h1", title(data)) + "\n<div class=\"columns\">";
-  html += headline_section(data) + resolution_section(data) + "</div>\n" + drawing_section(data) +
-          plots_section(groups);
-  html += results_sections(data);
-  html += script(json_for_script(json_samples(data.samples, groups)),
-                 " type=\"application/json\" id=\"samples\"");
-  html += script(assets::uPlot_iife_min_js) + script(assets::page_js);
-  return html + "</body>\n</html>\n";
+  const std::string body = "<div class=\"columns\">" + headline_section(data) +
+                           resolution_section(data) + "</div>\n" + drawing_section(data) +
+                           plots_section(groups) + results_sections(data);
+  return make_page(title(data), body, json_samples(data.samples, groups));
 }
 
 std::filesystem::path write_report(const std::filesystem::path& run_folder) {

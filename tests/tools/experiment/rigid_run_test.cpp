@@ -21,8 +21,8 @@ using Strings = std::vector<std::string>;
 
 namespace {
 
-const Strings kFiles = {"bus.log",       "report.html",   "result.json", "samples.csv",
-                        "settings.toml", "telemetry.lcm", "timing.json"};
+const Strings kFiles = {"bus.log",     "recording.json", "report.html",   "result.json",
+                        "samples.csv", "settings.toml",  "telemetry.lcm", "timing.json"};
 
 Strings rigid(const std::string& experiment, const fs::path& out, const Strings& more = {}) {
   Strings arguments = {experiment, "--terrain", "rigid", "--quiet", "--out", out.string()};

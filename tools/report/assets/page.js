@@ -1,7 +1,9 @@
 "use strict";
 // Draws the plots of report.html from the JSON in the element "samples":
-// { time_s: [...], plots: [{ axis, unit, series: [{ label, values }] }],
-//   phases: [{ time_s, name }] }. Values are in the unit of their plot; null means no value.
+// { time_s: [...], plots: [{ axis, unit, span_gaps, series: [{ label, values, step, band }] }],
+//   phases: [{ time_s, name }] }. Values are in the unit of their plot; null means no value, which
+// a line passes over where span_gaps is set. A step holds its value; a band is thin and dashed.
+// A plot may have a time_s of its own.
 (() => {
   const samples = JSON.parse(document.getElementById("samples").textContent);
   // Okabe and Ito's palette, told apart by colour-blind readers; without its yellow, too pale on
@@ -46,8 +48,10 @@
     const series = description.series.map((line, index) => ({
       label: line.label,
       stroke: colours[index % colours.length],
-      dash: index < colours.length ? undefined : [6, 4],
-      width: 1.5,
+      dash: line.band ? [2, 3] : index < colours.length ? undefined : [6, 4],
+      width: line.band ? 1 : 1.5,
+      spanGaps: description.span_gaps === true,
+      paths: line.step ? uPlot.paths.stepped({ align: 1 }) : undefined,
       value: (_, value) => shown(value),
     }));
     const label = description.axis + (description.unit ? ` [${description.unit}]` : "");
@@ -60,7 +64,7 @@
       series: [{ label: "time", value: (_, value) => shown(value) }, ...series],
       hooks: { drawAxes: [drawPhases] },
     };
-    const data = [samples.time_s, ...description.series.map((line) => line.values)];
+    const data = [description.time_s ?? samples.time_s, ...description.series.map((line) => line.values)];
     return new uPlot(options, data, box);
   }
 
