@@ -4,10 +4,12 @@
 #include <sched.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
 #include <ctime>
+#include <stdexcept>
 
 #include "hal/monotonic_clock.h"
 
@@ -23,6 +25,9 @@ constexpr int kPriority = 60;
 /// Five of its drives' time-outs: the foot sends commands every millisecond, in every mode.
 constexpr std::int64_t kSilence_ns = 100'000'000;
 
+/// Ticks that may become due at once.
+constexpr std::uint32_t kMostBehind = 100;
+
 timespec timespec_of(std::int64_t t_ns) {
   return {t_ns / kSecond_ns, t_ns % kSecond_ns};
 }
@@ -33,7 +38,11 @@ std::vector<std::string> become_real_time() {
   std::vector<std::string> refused;
   sched_param priority{};
   priority.sched_priority = kPriority;
-  if (sched_setscheduler(0, SCHED_FIFO, &priority) != 0) {
+  if (sysconf(_SC_NPROCESSORS_ONLN) < 2) {
+    refused.push_back(
+        "SCHED_FIFO: not asked for, as on the one processor here the plant could keep "
+        "everybody else from running");
+  } else if (sched_setscheduler(0, SCHED_FIFO, &priority) != 0) {
     refused.push_back("SCHED_FIFO " + std::to_string(kPriority) + ": " + std::strerror(errno) +
                       " (needs root, CAP_SYS_NICE, or rtprio in limits.conf)");
   }
@@ -67,7 +76,13 @@ std::uint32_t RealTimePace::rest(const std::function<void()>& poll) {
   const timespec deadline = timespec_of(deadline_ns);
   while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &deadline, nullptr) == EINTR) {
   }
-  return schedule_->woke(clock.now_ns());
+  const std::uint32_t due = schedule_->woke(clock.now_ns());
+  // Catching up takes time as well: from here on it would only fall behind further.
+  if (due > kMostBehind) {
+    throw std::runtime_error("real time: the plant fell " + std::to_string(due) +
+                             " ticks behind the wall's clock; this machine does not keep up");
+  }
+  return due;
 }
 
 void BusFoot::poll(std::uint32_t tick) {

@@ -18,6 +18,7 @@ std::vector<std::string> become_real_time();
 
 /// Sleeps to absolute deadlines of CLOCK_MONOTONIC, answering what comes in meanwhile. The plant's
 /// millisecond is computed at its start, so it is up to a millisecond old when a command finds it.
+/// rest() throws std::runtime_error where the plant falls behind for good.
 class RealTimePace final : public Pace {
  public:
   explicit RealTimePace(std::int64_t period_ns) : period_ns_(period_ns) {}

@@ -162,7 +162,7 @@ TEST_CASE("a firmware killed at a random tick: named, recorded, and the drives w
     Arguments more = kOnVcan;
     more.insert(more.end(), {"--patience", "0.3"});
     const Program program(short_run("sinkage", scratch.path() / "run", more));
-    hal::SocketCanBus listener({.interface = "vcan0"});
+    hal::SocketCanBus listener(hal::SocketCanSettings{});
     const pid_t firmware = wait_for_process("hoof-firmware", program.id());
     const std::uint32_t tick = random() % kTicksOfARun;
     REQUIRE(wait_for_tick(listener, tick));
@@ -198,7 +198,7 @@ TEST_CASE("a bridge killed at a random tick leaves a readable recording and no p
     const tests::ScratchFolder scratch;
     const fs::path out = scratch.path() / "run";
     const Program program(short_run("sinkage", out, kOnVcan));
-    hal::SocketCanBus listener({.interface = "vcan0"});
+    hal::SocketCanBus listener(hal::SocketCanSettings{});
     const pid_t bridge = wait_for_process("hoof-bridge", program.id());
     const std::uint32_t tick = random() % kTicksOfARun;
     REQUIRE(wait_for_tick(listener, tick));
@@ -227,7 +227,7 @@ TEST_CASE("a bridge killed at a random tick leaves a readable recording and no p
 TEST_CASE("Ctrl-C ends both in order and keeps what exists") {
   const tests::ScratchFolder scratch;
   const Program program(short_run("traction", scratch.path() / "run", kOnVcan));
-  hal::SocketCanBus listener({.interface = "vcan0"});
+  hal::SocketCanBus listener(hal::SocketCanSettings{});
   REQUIRE(wait_for_tick(listener, 100));
   program.send(SIGINT);
   const Outcome outcome = program.wait();
@@ -240,7 +240,7 @@ TEST_CASE("Ctrl-C ends both in order and keeps what exists") {
 TEST_CASE("hoof killed with -9 takes both with it") {
   const tests::ScratchFolder scratch;
   const Program program(short_run("traction", scratch.path() / "run", kOnVcan));
-  hal::SocketCanBus listener({.interface = "vcan0"});
+  hal::SocketCanBus listener(hal::SocketCanSettings{});
   REQUIRE(wait_for_tick(listener, 100));
   program.send(SIGKILL);
   program.wait();
@@ -255,7 +255,7 @@ TEST_CASE("hoof killed with -9 takes both with it") {
 TEST_CASE("a stranger's e-stop on the interface stops the foot and is in the recording") {
   const tests::ScratchFolder scratch;
   const Program program(short_run("traction", scratch.path() / "run", kOnVcan));
-  hal::SocketCanBus button({.interface = "vcan0"});
+  hal::SocketCanBus button(hal::SocketCanSettings{});
   REQUIRE(wait_for_tick(button, 100));
   button.send(encode(protocol::EmergencyStop{9, 0}));
   const Outcome outcome = program.wait();
