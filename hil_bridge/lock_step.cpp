@@ -30,12 +30,22 @@ std::int64_t whole_exchange_ns(double exchange_s) {
 
 LockStep::LockStep(sim::Experiment& experiment, const firmware::app::Parameters& parameters,
                    Wires& wires)
+    : LockStep(
+          experiment,
+          [&parameters](hal::CanBus& bus0, hal::CanBus& bus1, const hal::Clock& clock) {
+            return std::make_unique<LocalFirmware>(bus0, bus1, clock, parameters);
+          },
+          wires) {}
+
+LockStep::LockStep(sim::Experiment& experiment, const FirmwareMaker& firmware, Wires& wires,
+                   Pace* pace)
     : experiment_(experiment),
       wires_(wires),
       master_{&wires.attach(0, "sync"), &wires.attach(1, "sync")},
-      firmware_({&wires.attach(0, "foot"), &wires.attach(1, "foot")}, clock_, board_, parameters),
+      firmware_(firmware(wires.attach(0, "foot"), wires.attach(1, "foot"), clock_)),
       supervisor_(wires.attach(0, "supervisor")),
-      exchange_ns_(whole_exchange_ns(experiment.plant().settings().exchange_s)) {
+      exchange_ns_(whole_exchange_ns(experiment.plant().settings().exchange_s)),
+      pace_(pace) {
   drives_.reserve(sim::kJointCount);  // nodes keep references, they must not move
   for (const sim::Joint joint : {sim::Joint::kToe, sim::Joint::kHip, sim::Joint::kKnee}) {
     if (sim::Drive* drive = experiment.plant().drive(joint)) {
@@ -48,6 +58,7 @@ LockStep::LockStep(sim::Experiment& experiment, const firmware::app::Parameters&
 void LockStep::send_sync() {
   const hal::CanFrame frame = encode(firmware::protocol::Sync{tick_});
   for (hal::CanBus* bus : master_) {
+    if (bus == master_[1] && wires_.one_wire()) continue;
     if (bus->send(frame) != hal::SendResult::kQueued) {
       throw std::runtime_error("SYNC " + std::to_string(tick_) + " could not be sent");
     }
@@ -56,7 +67,7 @@ void LockStep::send_sync() {
 
 void LockStep::poll_nodes() {
   for (DriveNode& drive : drives_) drive.poll();
-  firmware_.poll();
+  firmware_->poll(tick_);
   supervisor_.poll(clock_.now_ns());
 }
 
@@ -80,8 +91,9 @@ void LockStep::exchange() {
 void LockStep::tick() {
   torques_ = {};
   send_sync();
-  for (std::int64_t t = 0; t < kTick_ns; t += exchange_ns_) exchange();
-  ++tick_;
+  for (std::int64_t t = 0; t < due_ticks_ * kTick_ns; t += exchange_ns_) exchange();
+  if (pace_ != nullptr) due_ticks_ = pace_->rest([this] { poll_nodes(); });
+  tick_ += due_ticks_;
 }
 
 }  // namespace hoof::bridge

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "firmware/app/control_loop.h"
-#include "hal/in_process/soft_board.h"
 #include "hal/stepped_clock.h"
 #include "hil_bridge/drive_node.h"
+#include "hil_bridge/firmware_node.h"
 #include "hil_bridge/supervisor.h"
 #include "hil_bridge/wires.h"
 #include "sim/experiments/experiment.h"
@@ -24,6 +24,17 @@ struct TickTorques {
   std::array<double, sim::kJointCount> limited_s{};  // time for which the drive's own limit clipped
 };
 
+/// Ties the ticks of a run to something outside, for instance to the wall's clock.
+class Pace {
+ public:
+  virtual ~Pace() = default;
+
+  /// The tick's plant time is done: comes back when the next tick is due.
+  /// @param poll takes and answers what has come in; may be called any number of times
+  /// @return ticks that have become due, at least 1; the plant must go on by all of them
+  virtual std::uint32_t rest(const std::function<void()>& poll) = 0;
+};
+
 class LockStep {
  public:
   static constexpr std::int64_t kTick_ns = 1'000'000;
@@ -31,12 +42,17 @@ class LockStep {
   /// @throws std::invalid_argument where the plant's exchange interval does not divide a tick
   LockStep(sim::Experiment& experiment, const firmware::app::Parameters& parameters, Wires& wires);
 
+  /// With a firmware that may be elsewhere, and at a pace that is not the plant's own where `pace`
+  /// is not null; it must outlive this.
+  LockStep(sim::Experiment& experiment, const FirmwareMaker& firmware, Wires& wires,
+           Pace* pace = nullptr);
+
   /// One control period. @throws std::runtime_error when the plant diverges
   void tick();
 
   Supervisor& supervisor() { return supervisor_; }
   const Supervisor& supervisor() const { return supervisor_; }
-  const firmware::app::ControlLoop& firmware() const { return firmware_; }
+  const FirmwareNode& firmware() const { return *firmware_; }
   const TickTorques& torques() const { return torques_; }
   std::uint32_t ticks() const { return tick_; }
   std::int64_t now_ns() const { return clock_.now_ns(); }
@@ -49,13 +65,14 @@ class LockStep {
   sim::Experiment& experiment_;
   Wires& wires_;
   hal::SteppedClock clock_;
-  hal::SoftBoard board_;
   std::array<hal::CanBus*, kBusCount> master_{};
-  firmware::app::ControlLoop firmware_;
+  std::unique_ptr<FirmwareNode> firmware_;
   Supervisor supervisor_;
   std::vector<DriveNode> drives_;
   std::int64_t exchange_ns_;
+  Pace* pace_ = nullptr;
   std::uint32_t tick_ = 0;
+  std::uint32_t due_ticks_ = 1;  // more than one only where a pace went on without us
   TickTorques torques_;
 };
 

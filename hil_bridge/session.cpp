@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 namespace hoof::bridge {
@@ -12,13 +13,13 @@ using firmware::protocol::Order;
 
 class Session {
  public:
-  Session(sim::Experiment& experiment, const firmware::app::Parameters& parameters, Wires& wires,
-          const SessionSettings& settings, const TickObserver& observer)
+  Session(sim::Experiment& experiment, const FirmwareMaker& firmware, Wires& wires,
+          const SessionSettings& settings, const TickObserver& observer, Pace* pace)
       : experiment_(experiment),
         wires_(wires),
         settings_(settings),
         observer_(observer),
-        lock_step_(experiment, parameters, wires) {}
+        lock_step_(experiment, firmware, wires, pace) {}
 
   SessionResult run() {
     result_.toe_command_rad = settings_.toe_rad;
@@ -30,6 +31,16 @@ class Session {
  private:
   /// @return false when the observer wants to stop
   bool tick() {
+    const bool go_on = record_tick();
+    if (!lock_step_.firmware().lost().empty()) run_on_in_silence();
+    if (const std::string& trouble = lock_step_.supervisor().trouble(); !trouble.empty()) {
+      throw std::runtime_error("at " + std::to_string(experiment_.time_s()) + " s: " + trouble);
+    }
+    result_.interrupted = !go_on;
+    return go_on;
+  }
+
+  bool record_tick() {
     lock_step_.tick();
     const TickRecord record{experiment_.observe(), lock_step_.firmware().telemetry(),
                             lock_step_.torques()};
@@ -38,14 +49,39 @@ class Session {
       result_.torque_peak_Nm[j] = std::max(result_.torque_peak_Nm[j], record.torques.peak_Nm[j]);
       result_.torque_limited_s[j] += record.torques.limited_s[j];
     }
-    if (const std::string& trouble = lock_step_.supervisor().trouble(); !trouble.empty()) {
-      throw std::runtime_error("at " + std::to_string(record.plant.time_s) + " s: " + trouble);
+    return !observer_ || observer_(record);
+  }
+
+  bool drives_have_torque() const {
+    for (int j = 0; j < sim::kJointCount; ++j) {
+      const sim::Drive* drive = experiment_.plant().drive(sim::Joint(j));
+      if (drive != nullptr && drive->motor_torque_Nm() != 0) return true;
     }
-    if (observer_ && !observer_(record)) {
-      result_.interrupted = true;
-      return false;
+    return false;
+  }
+
+  /// Nobody commands the drives any more: their own time-outs must act, in the plant's time.
+  [[noreturn]] void run_on_in_silence() {
+    const double silent_s = experiment_.time_s() - 1e-3;  // the SYNC that had no answer
+    double without_s = -1;                                // since when no drive has had torque
+    for (int i = 0; i < settings_.silent_ticks; ++i) {
+      if (drives_have_torque()) {
+        without_s = -1;
+      } else if (without_s < 0) {
+        without_s = experiment_.time_s() - silent_s;
+      }
+      if (!record_tick()) break;
     }
-    return true;
+    char text[120];
+    if (without_s >= 0) {
+      std::snprintf(text, sizeof text, "; the drives were without torque %.0f ms after it",
+                    without_s * 1e3);
+    } else {
+      std::snprintf(text, sizeof text, "; a drive still had torque %d ms after it",
+                    settings_.silent_ticks);
+    }
+    throw std::runtime_error("at " + std::to_string(silent_s) +
+                             " s: " + lock_step_.firmware().lost() + text);
   }
 
   static double mean_opening(const sim::Observation& o) {
@@ -67,6 +103,12 @@ class Session {
            std::abs(double(s.toe()->commanded_rad) - settings_.toe_rad) < 1e-3 &&
            std::abs(double(s.toe()->measured_rad) - settings_.toe_rad) <
                settings_.toe_tolerance_rad;
+  }
+
+  /// As an operator learns it: the same whether the firmware is in this process or not.
+  bool running() const {
+    const Supervisor& s = lock_step_.supervisor();
+    return s.heartbeat() && s.heartbeat()->mode == Mode::kRunning;
   }
 
   bool prepare() {
@@ -95,7 +137,7 @@ class Session {
     if (settings_.firmware_leg) {
       lock_step_.supervisor().order(Order::kRun, settings_.toe_rad, settings_.frequency_Hz);
       // The leg goes to the start of its path first, by itself; the test waits for the gait.
-      while (lock_step_.firmware().mode() != firmware::control::Mode::kRunning) {
+      while (!running()) {
         if (!tick()) return false;
         if (experiment_.time_s() > 2 * settings_.prepare_limit_s) throw_not_ready();
       }
@@ -134,10 +176,20 @@ class Session {
 
 }  // namespace
 
+SessionResult run_session(sim::Experiment& experiment, const FirmwareMaker& firmware, Wires& wires,
+                          const SessionSettings& settings, const TickObserver& observer,
+                          Pace* pace) {
+  return Session(experiment, firmware, wires, settings, observer, pace).run();
+}
+
 SessionResult run_session(sim::Experiment& experiment, const firmware::app::Parameters& parameters,
                           Wires& wires, const SessionSettings& settings,
                           const TickObserver& observer) {
-  return Session(experiment, parameters, wires, settings, observer).run();
+  const FirmwareMaker local = [&parameters](hal::CanBus& bus0, hal::CanBus& bus1,
+                                            const hal::Clock& clock) {
+    return std::make_unique<LocalFirmware>(bus0, bus1, clock, parameters);
+  };
+  return run_session(experiment, local, wires, settings, observer);
 }
 
 }  // namespace hoof::bridge

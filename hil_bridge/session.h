@@ -18,6 +18,7 @@ struct SessionSettings {
   double toe_tolerance_rad = 0.00873;  // 0.5 degrees: the toes count as open
   double prepare_limit_s = 8;          // longest homing and opening, simulated
   int closing_ticks = 20;              // after the order to stop at the end
+  int silent_ticks = 40;               // that the plant goes on without an answer of the firmware
 };
 
 /// Everything of one control tick, for recorders.
@@ -50,5 +51,12 @@ using TickObserver = std::function<bool(const TickRecord&)>;
 SessionResult run_session(sim::Experiment& experiment, const firmware::app::Parameters& parameters,
                           Wires& wires, const SessionSettings& settings,
                           const TickObserver& observer);
+
+/// The same with a firmware that may be elsewhere, and at the pace of `pace` where it is not null.
+/// When the firmware answers no more the plant goes on without it until its drives have taken their
+/// torque off by themselves; then std::runtime_error names who was silent, and when they did.
+SessionResult run_session(sim::Experiment& experiment, const FirmwareMaker& firmware, Wires& wires,
+                          const SessionSettings& settings, const TickObserver& observer,
+                          Pace* pace = nullptr);
 
 }  // namespace hoof::bridge

@@ -1,9 +1,11 @@
 #include "hil_bridge/wires.h"
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "hal/in_process/in_process_bus.h"
+#include "hal/monotonic_clock.h"
 #include "hal/socketcan/socketcan_bus.h"
 
 namespace hoof::bridge {
@@ -75,11 +77,13 @@ class SocketCanWires final : public Wires {
   }
 
   void advance_to(std::int64_t t_ns) override {
+    // The kernel's stamps, on the run's own scale.
+    if (!origin_ns_) origin_ns_ = hal::MonotonicClock().now_ns() - t_ns;
     hal::CanFrame frame;
     for (int bus = 0; bus < kBusCount; ++bus) {
       while (listeners_[bus] && listeners_[bus]->receive(frame)) {
         ++frames_;
-        frame.stamp_ns = t_ns;
+        frame.stamp_ns = std::max<std::int64_t>(0, frame.stamp_ns - *origin_ns_);
         if (observer_) observer_(bus, frame);
       }
     }
@@ -88,6 +92,13 @@ class SocketCanWires final : public Wires {
   double load_ratio(int) const override { return -1; }
   double worst_load_ratio(int) const override { return -1; }
   std::uint64_t frames() const override { return frames_; }
+  std::uint64_t dropped() const override {
+    std::uint64_t sum = 0;
+    for (const auto& listener : listeners_) sum += listener ? listener->status().dropped : 0;
+    for (const auto& node : nodes_) sum += node->status().dropped;
+    return sum;
+  }
+  bool one_wire() const override { return names_[0] == names_[1]; }
 
  private:
   static std::unique_ptr<hal::SocketCanBus> open(const std::string& name) {
@@ -100,6 +111,7 @@ class SocketCanWires final : public Wires {
   std::array<std::string, kBusCount> names_;
   std::array<std::unique_ptr<hal::SocketCanBus>, kBusCount> listeners_;
   std::vector<std::unique_ptr<hal::SocketCanBus>> nodes_;
+  std::optional<std::int64_t> origin_ns_;  // of the run, on the clock of the stamps
   std::uint64_t frames_ = 0;
 };
 

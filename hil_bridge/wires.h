@@ -16,7 +16,7 @@ inline constexpr int kBusCount = int(firmware::protocol::kBusCount);
 
 class Wires {
  public:
-  /// Called for every frame on any bus, in order; the frame's stamp is simulated time.
+  /// Called for every frame on any bus, in order; the frame's stamp counts from the run's time 0.
   using Observer = std::function<void(int bus, const hal::CanFrame&)>;
 
   virtual ~Wires() = default;
@@ -32,13 +32,17 @@ class Wires {
   /// The same in the worst 10 ms.
   virtual double worst_load_ratio(int bus) const = 0;
   virtual std::uint64_t frames() const = 0;
+  /// Frames that the kernel lost on the way to the nodes here, as far as they have noticed.
+  virtual std::uint64_t dropped() const { return 0; }
+  /// True where both logical buses share one wire, so that a frame for both goes out once.
+  virtual bool one_wire() const { return false; }
 };
 
 /// Buses at 1 Mbit/s in this process: arbitration and frame times as on a real wire.
 std::unique_ptr<Wires> in_process_wires(Wires::Observer observer);
 
-/// Both logical buses on SocketCAN: "vcan0" for both, or "can0,can1". Frames arrive when the kernel
-/// hands them over; stamps in the log are the simulated time at which the bridge saw them.
+/// Both logical buses on SocketCAN, for runs in real time: "vcan0" for both, or "can0,can1". Stamps
+/// are the kernel's, counted from the time 0 of the run.
 /// @throws std::runtime_error naming the interface and what to do
 std::unique_ptr<Wires> socketcan_wires(const std::string& interfaces, Wires::Observer observer);
 

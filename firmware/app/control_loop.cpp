@@ -310,18 +310,43 @@ void ControlLoop::keep_fault_log(std::int64_t now_ns) {
   log.step();
 }
 
+protocol::Heartbeat ControlLoop::next_heartbeat() const {
+  return {static_cast<protocol::Mode>(controller_.mode()),
+          static_cast<std::uint8_t>((heartbeat_.counter + 1) & 0xF), controller_.faults(),
+          protocol::kHeartbeatHash};
+}
+
+std::int64_t ControlLoop::heartbeat_due_ns(const protocol::Heartbeat& next) const {
+  if (!heartbeat_sent_) return heartbeat_ns_;
+  const bool changed = next.mode != heartbeat_.mode || next.faults != heartbeat_.faults;
+  return heartbeat_ns_ + (changed ? kHeartbeatShortest_ns : kHeartbeatPeriod_ns);
+}
+
 void ControlLoop::send_heartbeat_if_due(std::int64_t now_ns) {
-  const protocol::Heartbeat now{static_cast<protocol::Mode>(controller_.mode()),
-                                static_cast<std::uint8_t>((heartbeat_.counter + 1) & 0xF),
-                                controller_.faults(), protocol::kHeartbeatHash};
-  const bool changed = now.mode != heartbeat_.mode || now.faults != heartbeat_.faults;
-  const std::int64_t age_ns = now_ns - heartbeat_ns_;
-  const std::int64_t due_ns = changed ? kHeartbeatShortest_ns : kHeartbeatPeriod_ns;
-  if (heartbeat_sent_ && age_ns < due_ns) return;
-  heartbeat_ = now;
+  const protocol::Heartbeat next = next_heartbeat();
+  if (heartbeat_sent_ && now_ns < heartbeat_due_ns(next)) return;
+  heartbeat_ = next;
   heartbeat_ns_ = now_ns;
   heartbeat_sent_ = true;
-  queue(encode(now));
+  queue(encode(next));
+}
+
+std::int64_t ControlLoop::next_due_ns() const {
+  std::int64_t due_ns = heartbeat_due_ns(next_heartbeat());
+  const auto sooner = [&due_ns](std::int64_t t_ns) {
+    if (t_ns < due_ns) due_ns = t_ns;
+  };
+  if (!outbox_.empty()) sooner(0);
+  for (const bool unsent : exit_unsent_) {
+    if (unsent) sooner(0);
+  }
+  if (synced_) {
+    sooner(last_sync_ns_ + safety::kFreshness_ns + 1);
+  } else if (controller_.mode() == Mode::kDampedStop) {
+    sooner(last_tick_ns_ + kTick_ns);
+  }
+  if (storage_ != nullptr) sooner(log_step_ns_ + kTick_ns);
+  return due_ns;
 }
 
 void ControlLoop::queue(const hal::CanFrame& frame) {

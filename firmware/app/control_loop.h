@@ -42,6 +42,11 @@ class ControlLoop {
 
   void poll();
 
+  /// When poll() would next do something without any frame having come: silence to be noticed, a
+  /// heartbeat, a frame to be sent again. Not after now where that is already the case. Tells a
+  /// simulator when it need not ask; between two calls of poll() it does not change.
+  std::int64_t next_due_ns() const;
+
   /// Ends the operation from this side, as the order to stop would: a leg is let down, then off.
   void request_stop() { controller_.order_stop(); }
   /// Torque off at once, as the e-stop frame would.
@@ -71,6 +76,8 @@ class ControlLoop {
   void keep_fault_log(std::int64_t now_ns);
   void trace();
   void record(std::int64_t now_ns);
+  protocol::Heartbeat next_heartbeat() const;
+  std::int64_t heartbeat_due_ns(const protocol::Heartbeat& next) const;
   void send_heartbeat_if_due(std::int64_t now_ns);
   void queue(const hal::CanFrame& frame);
   void trip(control::FaultBits faults);

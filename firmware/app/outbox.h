@@ -11,6 +11,8 @@ class Outbox {
   /// @return false when full; the frame is then dropped
   bool put(const hal::CanFrame& frame) { return frames_.put(frame); }
 
+  bool empty() const { return frames_.empty(); }
+
   /// Sends in order until empty or until the bus takes no more.
   void flush(hal::CanBus& bus) {
     while (!frames_.empty() && bus.send(frames_.front()) == hal::SendResult::kQueued) {

@@ -76,6 +76,7 @@ class InProcessPort final : public CanBus {
   const std::string& name() const { return name_; }
   int index() const { return index_; }  // in the order of attach(), from 0
   int pending() const { return pending_count_; }
+  int free_mailboxes() const { return static_cast<int>(mailboxes_.size()) - pending_count_; }
 
  private:
   friend class InProcessBus;

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <utility>
 
+#include "tools/experiment/two_processes.h"
+
 namespace hoof::tools {
 namespace {
 
@@ -148,7 +150,10 @@ std::string examples(Experiment experiment) {
            "  hoof sinkage\n"
            "  hoof sinkage --foot traditional --load 40 --speed 0.1 --bed bench --seed 3\n"
            "  hoof sinkage --foot bionic --toe 30 --load 400N --out runs/toe-30 --force\n"
-           "  hoof sinkage --resume runs/toe-30.resume";
+           "  hoof sinkage --resume runs/toe-30.resume\n"
+           "  hoof sinkage --bus vcan0                          firmware and plant as two "
+           "processes\n"
+           "  hoof sinkage --bus vcan0 --clock real-time --terrain rigid";
   }
   return "Examples:\n"
          "  hoof traction\n"
@@ -188,16 +193,50 @@ const char* name_of(Experiment experiment) {
   return experiment == Experiment::kSinkage ? "sinkage" : "traction";
 }
 
+/// hoof-firmware and hoof-bridge with the same settings.
+void run_on_bus(const RunSettings& run, const RunOutput& output,
+                const std::vector<std::string>& overrides) {
+  std::vector<std::string> what = {"--experiment", run.kind};
+  const auto add = [&what](const std::string& flag, const std::string& value) {
+    what.insert(what.end(), {flag, value});
+  };
+  add("--clock", output.bus.real_time ? "real-time" : "lock-step");
+  add("--patience", std::to_string(output.bus.patience_s));
+  for (const std::string& setting : overrides) add("--set", setting);
+  if (!output.out.empty()) add("--out", output.out.string());
+  if (output.force) what.emplace_back("--force");
+  if (output.live) what.emplace_back("--live");
+  if (output.quiet) what.emplace_back("--quiet");
+  check_bus_choice(run, output.bus);
+  // Which drives there are counts from the start of the firmware; all else is set over the bus.
+  const std::vector<std::string> firmware = {
+      "--clock", output.bus.real_time ? "real-time" : "lock-step",
+      "--set",   "toe_present=" + std::to_string(run.parameters.toe_present),
+      "--set",   "leg_present=" + std::to_string(run.parameters.leg_present)};
+  run_two_processes({run.bus, firmware, what});
+}
+
 }  // namespace
 
 void run_or_resume(const ExperimentOptions& options, Experiment experiment) {
   constexpr double kMinute_s = 60;
-  const RunOutput output{options.run.out, options.run.force, options.run.live, options.run.quiet,
-                         options.checkpoint_every_min * kMinute_s};
+  const std::string kind = name_of(experiment);
+  const RunOutput output{options.run.out,
+                         options.run.force,
+                         options.run.live,
+                         options.run.quiet,
+                         options.checkpoint_every_min * kMinute_s,
+                         bus_choice(options.bus)};
   if (!options.resume.empty()) {
-    resume_experiment(name_of(experiment), options.resume, output);
+    resume_experiment(kind, options.resume, output);
+    return;
+  }
+  const std::vector<std::string> overrides = settings_overrides(options);
+  const RunSettings run = read_run_settings(kind, overrides);
+  if (run.bus == kInProcess) {
+    run_experiment(run, output);
   } else {
-    run_experiment(read_run_settings(name_of(experiment), settings_overrides(options)), output);
+    run_on_bus(run, output, overrides);
   }
 }
 
@@ -232,8 +271,7 @@ void add_experiment_options(CLI::App& command, ExperimentOptions& options, Exper
   command.add_option("--terrain", options.terrain, "Grains (dem) or a rigid plane")
       ->type_name("dem|rigid")
       ->check(one_of({"dem", "rigid"}));
-  command.add_option("--bus", options.bus, "CAN interface, e.g. vcan0 [in process]")
-      ->type_name("IFACE");
+  add_bus_options(command, options.bus);
   add_run_options(command, options.run);
   add_resume_options(command, options);
   command.footer(examples(experiment));
@@ -265,7 +303,7 @@ std::vector<std::string> settings_overrides(const ExperimentOptions& options) {
   add_text(kBedKey, options.bed);
   add_text(kTerrainKey, options.terrain);
   add_text(kDriveKey, options.drive);
-  add_text(kBusKey, options.bus);
+  add_text(kBusKey, options.bus.bus);
   if (options.run.seed) add(kSeedKey, std::to_string(*options.run.seed));
   if (options.run.threads) add(kThreadsKey, std::to_string(*options.run.threads));
   overrides.insert(overrides.end(), options.run.settings.begin(), options.run.settings.end());

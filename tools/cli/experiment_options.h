@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/cli/bus_options.h"
 #include "tools/cli/run_options.h"
 #include "tools/experiment/run_experiment.h"
 
@@ -26,7 +27,7 @@ struct ExperimentOptions {
   std::string bed;               ///< preset demo, bench, paper, or a file
   std::string terrain;           ///< dem or rigid
   std::string drive;             ///< firmware or prescribed
-  std::string bus;               ///< CAN interface such as vcan0; not given: the in-process bus
+  BusOptions bus;                ///< not given: firmware and plant in this process
   std::filesystem::path resume;  ///< folder of an unfinished run; its settings hold, not these
   double checkpoint_every_min = RunOutput().checkpoint_every_s / 60;
 };

@@ -3,34 +3,17 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdlib>
-#include <exception>
-#include <iostream>
-#include <stdexcept>
 #include <string>
 
-#include "sim/config/config_error.h"
 #include "tools/cli/commands.h"
+#include "tools/cli/exit_status.h"
 #include "tools/cli/invocation.h"
-#include "tools/run/differs.h"
 #include "tools/run/errors.h"
 #include "tools/trajectory/trajectory_command.h"
 
 namespace {
 
 using namespace hoof::tools;
-
-int complain(std::string message, int status) {
-  // Some libraries break their messages over lines; the user gets one.
-  for (char& c : message) {
-    if (c == '\n') c = ' ';
-  }
-  std::cerr << "hoof: " << message << std::endl;
-  return status;
-}
-
-int complain(const std::string& message, ExitStatus status) {
-  return complain(message, static_cast<int>(status));
-}
 
 // Where the first word is no command CLI11 says "a subcommand is required", whatever it was.
 std::string explain(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
@@ -44,27 +27,6 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error, int argc,
   return "unknown command '" + first + "'; known are " + names;
 }
 
-int run_invocation(const Invocation& invocation) {
-  try {
-    invocation.run();
-    return EXIT_SUCCESS;
-  } catch (const Interrupted& stop) {
-    return complain(stop.what(), stop.exit_status());
-  } catch (const Differs& result) {
-    std::cout << result.what() << std::endl;
-    return Differs::kExitStatus;
-  } catch (const UserError& error) {
-    return complain(error.what(), ExitStatus::kUserError);
-  } catch (const hoof::sim::ConfigError& error) {
-    return complain(error.what(), ExitStatus::kUserError);
-  } catch (const std::invalid_argument& error) {
-    // Settings that are possible one by one but not together.
-    return complain(error.what(), ExitStatus::kUserError);
-  } catch (const std::exception& error) {
-    return complain(error.what(), ExitStatus::kCannotFinish);
-  }
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -72,8 +34,9 @@ int main(int argc, char** argv) {
   app.name("hoof");
   app.footer(
       "tools/hoof test [--full] [ctest arguments] builds and runs all tests.\n"
-      "tools/hoof benchmark dem|boundary|trajectory measures speed.\n"
+      "tools/hoof benchmark dem|boundary|lockstep|trajectory measures speed.\n"
       "tools/hoof firmware build|size|flash makes, measures and flashes the board's image.\n"
+      "tools/hoof bridge is the plant alone on a CAN bus; firmware run, the firmware alone.\n"
       "hoof COMMAND --help shows a command's flags and examples.");
   app.require_subcommand(1);
 
@@ -100,7 +63,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::RuntimeError& done) {
     return done.get_exit_code();  // a command that has said itself what is wrong
   } catch (const CLI::ParseError& error) {
-    return complain(explain(app, error, argc, argv), ExitStatus::kUserError);
+    return complain("hoof", explain(app, error, argc, argv), ExitStatus::kUserError);
   }
-  return invocation.run ? run_invocation(invocation) : EXIT_SUCCESS;
+  return invocation.run ? run_to_status("hoof", invocation.run) : EXIT_SUCCESS;
 }

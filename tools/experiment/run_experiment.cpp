@@ -93,9 +93,21 @@ class Run {
   }
 
  private:
+  /// Before anything is built: a firmware that is not there is told at once.
+  void connect() {
+    try {
+      bus_.emplace(run_, output_.bus);
+    } catch (const UserError&) {
+      throw;
+    } catch (const std::runtime_error& error) {
+      throw CannotFinish(error.what());
+    }
+  }
+
   /// All but moving the folder to its place.
   void perform() {
     const Clock::time_point start = Clock::now();
+    connect();
     // Of a resumed run as it was written first, with the origin of each value.
     write_file(folder_->file("settings.toml"),
                resume_ ? resume_->settings_toml() : run_.tree.to_toml());
@@ -109,7 +121,8 @@ class Run {
     const bridge::SessionResult session = drive();
     if (session.interrupted) save_for_resuming();
     recorder_->close();
-    const nlohmann::ordered_json result = summarise(run_, *experiment_, session, *recorder_);
+    nlohmann::ordered_json result = summarise(run_, *experiment_, session, *recorder_);
+    if (const auto bus = bus_->report(); !bus.is_null()) result["bus"] = bus;
     write_result_json(folder_->file("result.json"), result);
     if (sand != nullptr) {
       write_file(folder_->file("section.svg"),
@@ -169,9 +182,6 @@ class Run {
   bridge::SessionResult drive() {
     progress_.emplace(run_.kind, style_, std::cerr);
     const auto log = [this](int bus, const hal::CanFrame& frame) { recorder_->frame(bus, frame); };
-    const std::unique_ptr<bridge::Wires> wires = run_.bus == "in_process"
-                                                     ? bridge::in_process_wires(log)
-                                                     : bridge::socketcan_wires(run_.bus, log);
     const auto observe = [&](const bridge::TickRecord& record) {
       recorder_->tick(record);
       if (record.plant.phase != sim::Phase::kFinished) {
@@ -180,8 +190,9 @@ class Run {
       return !stop_.requested();
     };
     try {
+      bridge::Wires& wires = bus_->start(log);
       const bridge::SessionResult result = bridge::run_session(
-          *experiment_, run_.parameters, *wires, session_settings(run_), observe);
+          *experiment_, bus_->firmware(), wires, session_settings(run_), observe, bus_->pace());
       progress_->finish();
       return result;
     } catch (const UserError&) {
@@ -261,6 +272,7 @@ class Run {
                     limited_s.get<double>());
       }
     }
+    std::fputs(bus_->text().c_str(), stdout);
     if (r.contains("resolution")) {
       for (const auto& claim : r["resolution"]["claims_refused"]) {
         std::printf("cannot say: %s\n", claim.get<std::string>().c_str());
@@ -275,6 +287,7 @@ class Run {
   std::unique_ptr<ResumeFolder> resume_;
   ProgressStyle style_;
   std::optional<ProgressLine> progress_;
+  std::optional<RunBus> bus_;
   std::unique_ptr<sim::Experiment> experiment_;
   sim::JournaledTerrain* journal_ = nullptr;  // null where the run cannot be resumed
   std::unique_ptr<Recorder> recorder_;

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "sim/terrain/journaled_terrain.h"
+#include "tools/experiment/run_bus.h"
 #include "tools/experiment/run_settings.h"
 
 namespace hoof::tools {
@@ -15,6 +16,7 @@ struct RunOutput {
   bool quiet = false;
   /// Between checkpoints of the grains, by the clock; 0: the run cannot be resumed.
   double checkpoint_every_s = sim::JournalSettings().checkpoint_every_s;
+  BusChoice bus;  // of a run with its firmware on a CAN interface
 };
 
 /// Runs, writes the folder and its report, prints the summary; the folder's path is the last line.

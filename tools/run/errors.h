@@ -38,4 +38,17 @@ class Interrupted : public std::runtime_error {
   int exit_status_;
 };
 
+/// Another program that was started has failed and has said why: only its status is left to pass
+/// on.
+class AlreadySaid : public std::runtime_error {
+ public:
+  explicit AlreadySaid(int exit_status)
+      : std::runtime_error("a program that was started has failed"), exit_status_(exit_status) {}
+
+  int exit_status() const { return exit_status_; }
+
+ private:
+  int exit_status_;
+};
+
 }  // namespace hoof::tools

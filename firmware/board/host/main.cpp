@@ -8,6 +8,7 @@
 
 #include "firmware/app/control_loop.h"
 #include "firmware/app/received_ids.h"
+#include "firmware/board/host/lock_step_foot.h"
 #include "firmware/board/host/options.h"
 #include "firmware/board/host/scaled_clock.h"
 #include "hal/file_flash/file_flash.h"
@@ -61,10 +62,14 @@ hoof::hal::SocketCanSettings connection(const std::string& interface, std::size_
   return settings;
 }
 
+void say_stopped(const app::ControlLoop& loop) {
+  std::cerr << "hoof-firmware: stopped after " << loop.telemetry().counters.ticks
+            << " ticks, drives off\n";
+}
+
 int start(const board::Options& options) {
-  hoof::hal::SocketCanBus bus0(connection(options.bus0, 0));
-  hoof::hal::SocketCanBus bus1(connection(options.bus1, 1));
-  const board::ScaledClock clock(options.slow_down);
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
   std::optional<hoof::hal::FileFlash> flash;
   std::optional<app::Storage> storage;
   app::Parameters parameters;
@@ -73,13 +78,20 @@ int start(const board::Options& options) {
     storage.emplace(*flash).load(parameters);
   }
   board::apply_settings(options, parameters);
+  app::Storage* const kept = storage ? &*storage : nullptr;
+  if (options.lock_step) {
+    board::LockStepFoot foot(options, parameters, kept);
+    foot.run(interrupted);
+    say_stopped(foot.loop());
+    return 0;
+  }
+  hoof::hal::SocketCanBus bus0(connection(options.bus0, 0));
+  hoof::hal::SocketCanBus bus1(connection(options.bus1, 1));
+  const board::ScaledClock clock(options.slow_down);
   hoof::hal::SoftBoard board;
-  app::ControlLoop loop({&bus0, &bus1}, clock, board, parameters, storage ? &*storage : nullptr);
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
+  app::ControlLoop loop({&bus0, &bus1}, clock, board, parameters, kept);
   run(loop, bus0);
-  std::cerr << "hoof-firmware: stopped after " << loop.telemetry().counters.ticks
-            << " ticks, drives off\n";
+  say_stopped(loop);
   return 0;
 }
 
@@ -87,10 +99,9 @@ int start(const board::Options& options) {
 
 int main(int argc, char** argv) {
   try {
-    return start(board::read_options(argc, argv));
-  } catch (const CLI::Success&) {
-    std::cout << "usage: hoof-firmware --bus can0[,can1] [--set name=value]... [--flash FILE] "
-                 "[--slow-down N]\n";
+    const board::Options options = board::read_options(argc, argv);
+    if (options.help.empty()) return start(options);
+    std::cout << options.help;
     return 0;
   } catch (const CLI::ParseError& error) {
     std::cerr << "hoof-firmware: " << error.what() << '\n';

@@ -47,6 +47,13 @@ Options read_options(int argc, char** argv) {
   app.add_option("--bus", buses, "interface of bus 0, or of bus 0 and bus 1: can0 or can0,can1")
       ->required();
   app.add_option("--set", options.settings, "parameter as name=value; may be repeated");
+  std::string clock = "real-time";
+  app.add_option("--clock", clock,
+                 "real-time: this machine's; lock-step: that of hoof-bridge on the same bus")
+      ->check(CLI::IsMember({"real-time", "lock-step"}));
+  app.add_option("--patience", options.patience_s,
+                 "in lock-step: seconds without a word of the bridge until time runs on by itself")
+      ->check(CLI::Range(0.1, 1e6));
   app.add_option("--slow-down", options.slow_down,
                  "wall seconds per control second, for a plant simulated slower than real time")
       ->check(CLI::Range(1.0, 1e6));
@@ -54,8 +61,18 @@ Options read_options(int argc, char** argv) {
                  "file that holds parameters and fault log, made where it is missing");
   app.footer(
       "Example:\n"
-      "  hoof-firmware --bus can0,can1 --flash foot.flash --set hip_calibrated=1");
-  app.parse(argc, argv);
+      "  hoof-firmware --bus can0,can1 --flash foot.flash --set hip_calibrated=1\n"
+      "  hoof-firmware --bus vcan0 --clock lock-step     then hoof-bridge --bus vcan0");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    options.help = app.help();
+    return options;
+  }
+  options.lock_step = clock == "lock-step";
+  if (options.lock_step && options.slow_down != 1.0) {
+    throw CLI::ValidationError("--slow-down", "has no meaning with --clock lock-step");
+  }
 
   const std::size_t comma = buses.find(',');
   options.bus0 = buses.substr(0, comma);

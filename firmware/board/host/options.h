@@ -10,13 +10,16 @@ namespace hoof::firmware::board {
 
 struct Options {
   std::string bus0;
-  std::string bus1;  // the same as bus0 where one interface carries everything
+  std::string bus1;        // the same as bus0 where one interface carries everything
+  bool lock_step = false;  // the clock is a simulator's (hoof-bridge), not the wall's
+  double patience_s = 60;  // wall time without a word of it until it is taken for dead
   double slow_down = 1.0;
   std::string flash;                  // file with what outlives the power; empty: nothing does
   std::vector<std::string> settings;  // name=value, checked
+  std::string help;                   // of --help: to be printed, and no more
 };
 
-/// @throws CLI::ParseError for bad usage (also for --help), with the text to print
+/// @throws CLI::ParseError for bad usage, with the text to print
 Options read_options(int argc, char** argv);
 
 /// Sets what the command line sets, over what is there.

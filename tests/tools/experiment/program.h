@@ -50,6 +50,7 @@ class Program {
   Program& operator=(const Program&) = delete;
 
   void send(int signal_number) const { kill(child_, signal_number); }
+  pid_t id() const { return child_; }
 
   Outcome wait() const {
     int status = 0;

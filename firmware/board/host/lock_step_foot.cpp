@@ -1,0 +1,146 @@
+#include "firmware/board/host/lock_step_foot.h"
+
+#include <iostream>
+
+#include "firmware/protocol/dictionary.h"
+
+namespace hoof::firmware::board {
+namespace {
+
+/// Without a simulator the loop looks at its clock every millisecond.
+constexpr std::int64_t kFreeSleep_ns = 500'000;
+/// While time stands there is nothing to look at but the order to end.
+constexpr std::int64_t kStandingSleep_ns = 50'000'000;
+
+std::unique_ptr<hal::SocketCanBus> open(const std::string& interface) {
+  hal::SocketCanSettings settings;
+  settings.interface = interface;
+  return std::make_unique<hal::SocketCanBus>(settings);
+}
+
+bool is_on_bus0(const hal::CanFrame& frame) {
+  if (frame.extended) return true;
+  for (const protocol::MessageSpec& message : protocol::kMessages) {
+    if (message.id == frame.id) return (message.buses & protocol::kBus0) != 0;
+  }
+  return true;
+}
+
+bool drives_off(control::Mode mode) {
+  return mode == control::Mode::kOff || mode == control::Mode::kEmergencyOff ||
+         mode == control::Mode::kFault;
+}
+
+}  // namespace
+
+LockStepFoot::LockStepFoot(const Options& options, const app::Parameters& parameters,
+                           app::Storage* storage)
+    : patience_ns_(static_cast<std::int64_t>(options.patience_s * 1e9)), storage_(storage) {
+  // No acceptance filters: frames of nobody are counted as by a foot in the simulator's process.
+  socket0_ = open(options.bus0);
+  if (options.bus1 != options.bus0) socket1_ = open(options.bus1);
+  buses_[0] = std::make_unique<SteppedConnection>(*socket0_);
+  buses_[1] = std::make_unique<SteppedConnection>(socket1_ ? *socket1_ : *socket0_);
+  for (const auto& bus : buses_) bus->allow(hal::lock_step::kMostFree, false);
+  start_loop(parameters);
+}
+
+void LockStepFoot::start_loop(const app::Parameters& parameters) {
+  for (const auto& bus : buses_) bus->clear();
+  const app::Parameters copy = parameters;  // may be those of the loop that ends here
+  loop_.emplace(app::ControlLoop::Buses{buses_[0].get(), buses_[1].get()}, clock_, board_, copy,
+                storage_);
+}
+
+void LockStepFoot::run(const std::atomic<bool>& interrupted) {
+  while (!interrupted) {
+    if (clock_.running()) {
+      free_step();
+      continue;
+    }
+    listen(kStandingSleep_ns);
+    if (wall_.now_ns() - heard_ns_ > patience_ns_) run_on("the simulator is silent");
+  }
+  clock_.run_on();
+  loop_->request_stop();
+  do {
+    free_step();
+  } while (!drives_off(loop_->mode()));
+  for (const auto& bus : buses_) bus->allow(hal::lock_step::kMostFree, false);
+  loop_->release_drives();
+}
+
+void LockStepFoot::free_step() {
+  for (const auto& bus : buses_) bus->allow(hal::lock_step::kMostFree, false);
+  listen(kFreeSleep_ns);
+  if (clock_.running()) loop_->poll();
+}
+
+void LockStepFoot::listen(std::int64_t longest_ns) {
+  if (!socket0_->wait(longest_ns)) {
+    drain_bus1();
+    return;
+  }
+  hal::CanFrame frame;
+  while (socket0_->receive(frame)) take(frame);
+}
+
+void LockStepFoot::drain_bus1() {
+  hal::CanFrame frame;
+  while (socket1_ && socket1_->receive(frame)) buses_[1]->put(frame);
+}
+
+void LockStepFoot::take(const hal::CanFrame& frame) {
+  if (!hal::lock_step::is_any(frame)) {
+    const bool bus0 = socket1_ != nullptr || is_on_bus0(frame);
+    buses_[bus0 ? 0 : 1]->put(frame);
+    return;
+  }
+  heard_ns_ = wall_.now_ns();
+  if (hal::lock_step::is_begin(frame)) {
+    begin();
+  } else if (hal::lock_step::is_end(frame)) {
+    run_on("");
+  } else if (const auto go = hal::lock_step::decode_go(frame); go && !clock_.running()) {
+    step(*go);
+  }
+}
+
+void LockStepFoot::begin() {
+  drain_bus1();
+  clock_.stand_at(0);
+  start_loop(loop_->parameters());
+  answer(0);
+}
+
+void LockStepFoot::step(const hal::lock_step::Go& go) {
+  drain_bus1();
+  if (go.time_ns < clock_.now_ns()) return;  // of another life
+  clock_.stand_at(go.time_ns);
+  for (std::size_t bus = 0; bus < buses_.size(); ++bus) {
+    buses_[bus]->allow(go.free[bus], go.bus_off[bus]);
+  }
+  loop_->poll();
+  if (go.answer) answer(go.time_ns);
+}
+
+void LockStepFoot::answer(std::int64_t time_ns) {
+  // Up to the next whole microsecond: asked too late by less than one, never too early.
+  const std::int64_t wait_us = (loop_->next_due_ns() - time_ns + 999) / 1000;
+  hal::lock_step::Done done;
+  done.time_us = hal::lock_step::microseconds(time_ns);
+  if (wait_us < hal::lock_step::Done::kNever_us) {
+    done.due_in_us = wait_us > 0 ? static_cast<std::uint32_t>(wait_us) : 0;
+  }
+  socket0_->send(encode(done));
+}
+
+void LockStepFoot::run_on(const char* why) {
+  if (clock_.running()) return;
+  if (*why != '\0') {
+    std::cerr << "hoof-firmware: " << why << "; time goes on by this machine's clock\n";
+  }
+  clock_.run_on();
+}
+
+}  // namespace hoof::firmware::board

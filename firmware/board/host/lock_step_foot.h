@@ -1,0 +1,56 @@
+// hoof-firmware --clock lock-step: the control loop at the pace of a simulator in another process.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "firmware/app/control_loop.h"
+#include "firmware/board/host/lock_step_clock.h"
+#include "firmware/board/host/options.h"
+#include "firmware/board/host/stepped_connection.h"
+#include "hal/in_process/soft_board.h"
+#include "hal/lock_step_frame.h"
+#include "hal/socketcan/socketcan_bus.h"
+
+namespace hoof::firmware::board {
+
+/// Lives by the wall's clock until a simulator begins; then time is what the simulator says
+/// (hal/lock_step_frame.h). A simulator that says nothing for options.patience_s is taken for dead:
+/// time runs on by the wall, and the loop's own time-outs act.
+class LockStepFoot {
+ public:
+  /// @throws std::runtime_error naming the interface and what to do
+  LockStepFoot(const Options& options, const app::Parameters& parameters, app::Storage* storage);
+
+  /// Until `interrupted`; then lets the leg down and leaves with the drives off.
+  void run(const std::atomic<bool>& interrupted);
+
+  const app::ControlLoop& loop() const { return *loop_; }
+
+ private:
+  void start_loop(const app::Parameters& parameters);
+  void free_step();
+  void listen(std::int64_t longest_ns);
+  void drain_bus1();
+  void take(const hal::CanFrame& frame);
+  void begin();
+  void step(const hal::lock_step::Go& go);
+  void run_on(const char* why);
+  void answer(std::int64_t time_ns);
+
+  hal::MonotonicClock wall_;
+  std::int64_t patience_ns_;
+  app::Storage* storage_;
+  std::unique_ptr<hal::SocketCanBus> socket0_;
+  std::unique_ptr<hal::SocketCanBus> socket1_;  // null where one interface carries both buses
+  std::array<std::unique_ptr<SteppedConnection>, protocol::kBusCount> buses_;
+  LockStepClock clock_;
+  hal::SoftBoard board_;
+  std::optional<app::ControlLoop> loop_;
+  std::int64_t heard_ns_ = 0;  // of the simulator, by the wall
+};
+
+}  // namespace hoof::firmware::board

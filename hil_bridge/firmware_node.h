@@ -1,0 +1,52 @@
+// Whoever answers SYNC in a run: the control loop in this process, or one elsewhere on the bus.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "firmware/app/control_loop.h"
+#include "hal/in_process/soft_board.h"
+
+namespace hoof::bridge {
+
+class FirmwareNode {
+ public:
+  virtual ~FirmwareNode() = default;
+
+  /// Once per exchange interval, when the plant stands at the present time.
+  /// @param tick number of the SYNC sent last, to name what is not answered
+  virtual void poll(std::uint32_t tick) = 0;
+
+  /// What is known of the firmware's last tick: all of it in this process, else what the bus tells.
+  virtual const firmware::app::Telemetry& telemetry() const = 0;
+  virtual firmware::control::Mode mode() const { return telemetry().mode; }
+
+  /// Who does not answer any more, since which tick; empty while all is well.
+  virtual const std::string& lost() const {
+    static const std::string none;
+    return none;
+  }
+};
+
+/// Makes the node of a run on its two connections; the clock is that of the run.
+using FirmwareMaker = std::function<std::unique_ptr<FirmwareNode>(
+    hal::CanBus& bus0, hal::CanBus& bus1, const hal::Clock& clock)>;
+
+class LocalFirmware final : public FirmwareNode {
+ public:
+  LocalFirmware(hal::CanBus& bus0, hal::CanBus& bus1, const hal::Clock& clock,
+                const firmware::app::Parameters& parameters)
+      : loop_({&bus0, &bus1}, clock, board_, parameters) {}
+
+  void poll(std::uint32_t) override { loop_.poll(); }
+  const firmware::app::Telemetry& telemetry() const override { return loop_.telemetry(); }
+  firmware::control::Mode mode() const override { return loop_.mode(); }
+
+ private:
+  hal::SoftBoard board_;
+  firmware::app::ControlLoop loop_;
+};
+
+}  // namespace hoof::bridge

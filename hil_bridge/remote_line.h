@@ -1,0 +1,45 @@
+// The SocketCAN interfaces to a firmware in another process.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "firmware/app/parameters.h"
+#include "hal/socketcan/socketcan_bus.h"
+
+namespace hoof::bridge {
+
+class RemoteLine {
+ public:
+  /// @param interfaces "vcan0" for both buses, or "vcan0,vcan1"
+  /// @throws std::runtime_error naming the interface and what to do
+  explicit RemoteLine(const std::string& interfaces);
+
+  const std::string& name() const { return name_; }
+  bool one_interface() const { return bus1_ == nullptr; }
+  hal::SocketCanBus& bus(int index) { return index == 1 && bus1_ ? *bus1_ : *bus0_; }
+
+  /// Frames that the kernel lost on the way here; only known with the next frame.
+  std::uint64_t dropped() const;
+
+  /// Waits for a heartbeat with this program's protocol hash.
+  /// @throws std::runtime_error where none comes within the time, or one with another hash
+  void await_heartbeat(std::int64_t timeout_ns);
+
+  /// True as soon as a heartbeat comes, with whatever protocol hash.
+  bool hears_foot(std::int64_t longest_ns);
+
+  /// Makes the foot's parameters these, in mode off, and reads them back.
+  /// @return the names of those that were changed
+  /// @throws std::runtime_error where the foot refuses, saying which and why
+  std::vector<std::string> pass_parameters(const firmware::app::Parameters& parameters,
+                                           std::int64_t timeout_ns);
+
+ private:
+  std::string name_;
+  std::unique_ptr<hal::SocketCanBus> bus0_;
+  std::unique_ptr<hal::SocketCanBus> bus1_;  // null where one interface carries both
+};
+
+}  // namespace hoof::bridge
