@@ -79,6 +79,7 @@ void ControlLoop::poll() {
   const std::int64_t now_ns = clock_.now_ns();
   mode_before_ = controller_.mode();
   cycle_.begin();
+  watch_buses();
   watch_sync(now_ns);
   watch_button();
   read(now_ns);
@@ -91,6 +92,13 @@ void ControlLoop::poll() {
   outbox_.flush(*buses_[0]);
   keep_fault_log(now_ns);
   if (cycle_.finished()) board_.feed_watchdog();
+}
+
+/// At every poll: a bus that is off brings no SYNC, so no tick would notice it.
+void ControlLoop::watch_buses() {
+  for (const hal::CanBus* bus : buses_) {
+    if (bus->status().bus_off) trip(fault::kBusOff);
+  }
 }
 
 /// Before anything is read: frames that waited while this loop was not called must not hide that it
@@ -182,9 +190,6 @@ void ControlLoop::run_due_tick(std::int64_t now_ns) {
 void ControlLoop::tick(std::int64_t now_ns, std::uint32_t elapsed_ticks) {
   ++counters_.ticks;
   last_tick_ns_ = now_ns;
-  for (const hal::CanBus* bus : buses_) {
-    if (bus->status().bus_off) trip(fault::kBusOff);
-  }
   trip(supply_.note(board_.supply_low(), board_.supply_V()));
   trip(gate_.inspect(inbox_.joints(), controller_.mode(), now_ns, elapsed_ticks));
   const control::Wish& wish = controller_.step(inbox_.joints());

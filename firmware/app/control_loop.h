@@ -56,6 +56,7 @@ class ControlLoop {
 
  private:
   void examine_start();
+  void watch_buses();
   void watch_sync(std::int64_t now_ns);
   void watch_button();
   void read(std::int64_t now_ns);

@@ -71,7 +71,14 @@ LimitBits limit_torque(const JointLimits& limits, float ceiling_Nm, const JointS
       confine(allowed_Nm, previous_Nm - change_Nm, previous_Nm + change_Nm)) {
     bits |= limit::kTorqueRate;
   }
-  shift_torque(limits, state, allowed_Nm - wished_Nm, c);
+  if (allowed_Nm == wished_Nm) return bits;
+  if (is_pure_damping(c)) {
+    // A torque that balances the damping at a speed the reply tells would push the joint where that
+    // speed is wrong. Less damping never pushes.
+    c.kd_Nm_s_rad *= allowed_Nm / wished_Nm;
+  } else {
+    shift_torque(limits, state, allowed_Nm - wished_Nm, c);
+  }
   return bits;
 }
 

@@ -181,6 +181,19 @@ TEST_CASE("Bus off is a fault") {
   CHECK(bench.loop->mode() == Mode::kDampedStop);
 }
 
+TEST_CASE("A bus 0 that is off is told at once, though no SYNC can come, and in mode off, too") {
+  for (const bool running : {true, false}) {
+    CAPTURE(running);
+    LoopBench bench;
+    if (running) bring_to_running(bench);
+    if (!running) bench.run(100);
+    bench.foot0.set_bus_off(true);
+    bench.run(2);
+    CHECK(bench.loop->faults() == fault::kBusOff);
+    CHECK(bench.loop->mode() == (running ? Mode::kDampedStop : Mode::kFault));
+  }
+}
+
 TEST_CASE("Repeated and older SYNC numbers run no tick; gaps are counted") {
   LoopBench bench;
   bench.run(100);

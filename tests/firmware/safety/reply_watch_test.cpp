@@ -214,6 +214,38 @@ TEST_CASE("A reading that stands still while its speed does not is found, and ho
   }
 }
 
+TEST_CASE("A reading on one code while the torque changes is found, from the eleventh reply on") {
+  for (std::size_t joint = 0; joint < 3; ++joint) {
+    for (const float sign : {-1.0f, 1.0f}) {
+      CAPTURE(joint, sign);
+      const float bound_Nm = kLimits[joint].stuck_Nm;
+      const auto settle = [&](Replies& r, float torque_Nm) {
+        FaultBits found = 0;
+        for (int i = 0; i < 50; ++i) {
+          r.state.torque_Nm = i % 2 == 0 ? 0.0f : sign * torque_Nm;
+          found |= r.next();
+        }
+        return found;
+      };
+      Replies inside(joint), beyond(joint), moves(joint);
+      CHECK(settle(inside, bound_Nm) == 0);
+      CHECK(settle(beyond, 1.01f * bound_Nm) == fault::kImplausibleReply);
+      // A code of motion now and then is enough.
+      for (int i = 0; i < 50; ++i) {
+        moves.state.torque_Nm = i % 2 == 0 ? 0.0f : sign * 2.0f * bound_Nm;
+        if (i % 5 == 0) moves.place(moves.state.reading_rad + 4e-4f);
+        CHECK(moves.next() == 0);
+      }
+      Replies soon(joint);
+      soon.place(soon.state.reading_rad + 4e-4f);
+      CHECK(soon.next() == 0);  // the first of this reading
+      soon.state.torque_Nm = sign * 2.0f * bound_Nm;
+      for (int reply = 2; reply <= kStuckReplies; ++reply) CHECK(soon.next() == 0);
+      CHECK(soon.next() == fault::kImplausibleReply);
+    }
+  }
+}
+
 TEST_CASE("A slow drift, and rounding as the wire has it, are none") {
   for (std::size_t joint = 0; joint < 3; ++joint) {
     const float bound_rad_s = kLimits[joint].drift_rad / kDriftMemory_s;

@@ -269,6 +269,26 @@ TEST_CASE("A wish that is not a number latches and becomes damping") {
   CHECK(w.gate.latched());
 }
 
+TEST_CASE("Damping beyond the ceiling becomes less damping, never a torque of its own") {
+  for (const float speed_rad_s : {-19.0f, -2.0f, 2.0f, 19.0f}) {
+    CAPTURE(speed_rad_s);
+    Watched w;
+    w.joints[1].velocity_rad_s = speed_rad_s;
+    const JointCommand damping{.kd_Nm_s_rad = kLimits[1].stop_kd_Nm_s_rad};
+    const auto& verdict =
+        w.gate.check(wish_for(Mode::kDampedStop, 1, DriveAction::kCommand, damping), w.joints);
+    const JointCommand& passed = verdict.joint[1].command;
+    // Where the reply tells a wrong speed and the joint stands, nothing pushes.
+    CHECK(is_pure_damping(passed));
+    const float torque_Nm = passed.kd_Nm_s_rad * std::abs(speed_rad_s);
+    // Rounding of a product.
+    CHECK(torque_Nm <= kLimits[1].torque_Nm * (1.0f + 1e-6f));
+    const bool beyond = std::abs(speed_rad_s) > 10.0f;
+    CHECK((verdict.limits[1] == limit::kTorque) == beyond);
+    if (beyond) CHECK(torque_Nm == Approx(kLimits[1].torque_Nm).epsilon(1e-5));
+  }
+}
+
 TEST_CASE("In every field a number that is none becomes damping") {
   for (int field = 0; field < 5; ++field) {
     Watched w;
