@@ -32,9 +32,11 @@ LockStep::LockStep(sim::Experiment& experiment, const firmware::app::Parameters&
                    Wires& wires)
     : experiment_(experiment),
       wires_(wires),
-      master_{&wires.attach(0, "sync"), &wires.attach(1, "sync")},
-      firmware_({&wires.attach(0, "foot"), &wires.attach(1, "foot")}, clock_, board_, parameters),
-      supervisor_(wires.attach(0, "supervisor")),
+      parameters_(parameters),
+      master_{&wires.attach(0, kSyncNode), &wires.attach(1, kSyncNode)},
+      foot_{&wires.attach(0, kFootNode), &wires.attach(1, kFootNode)},
+      firmware_(std::in_place, foot_, clock_, board_, parameters_),
+      supervisor_(wires.attach(0, kSupervisorNode)),
       exchange_ns_(whole_exchange_ns(experiment.plant().settings().exchange_s)) {
   drives_.reserve(sim::kJointCount);  // nodes keep references, they must not move
   for (const sim::Joint joint : {sim::Joint::kToe, sim::Joint::kHip, sim::Joint::kKnee}) {
@@ -56,7 +58,7 @@ void LockStep::send_sync() {
 
 void LockStep::poll_nodes() {
   for (DriveNode& drive : drives_) drive.poll();
-  firmware_.poll();
+  firmware_->poll();
   supervisor_.poll(clock_.now_ns());
 }
 
@@ -75,6 +77,11 @@ void LockStep::exchange() {
   }
   clock_.advance_to(clock_.now_ns() + exchange_ns_);
   wires_.advance_to(clock_.now_ns());
+}
+
+void LockStep::restart_firmware(hal::ResetCause cause) {
+  board_.cause = cause;
+  firmware_.emplace(foot_, clock_, board_, parameters_);
 }
 
 void LockStep::tick() {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "firmware/app/control_loop.h"
@@ -36,7 +37,11 @@ class LockStep {
 
   Supervisor& supervisor() { return supervisor_; }
   const Supervisor& supervisor() const { return supervisor_; }
-  const firmware::app::ControlLoop& firmware() const { return firmware_; }
+  const firmware::app::ControlLoop& firmware() const { return *firmware_; }
+  /// The firmware ends where it is and starts anew, knowing nothing but its parameters.
+  void restart_firmware(hal::ResetCause cause);
+  /// The board under the firmware: button and supply.
+  hal::SoftBoard& board() { return board_; }
   const TickTorques& torques() const { return torques_; }
   std::uint32_t ticks() const { return tick_; }
   std::int64_t now_ns() const { return clock_.now_ns(); }
@@ -50,8 +55,10 @@ class LockStep {
   Wires& wires_;
   hal::SteppedClock clock_;
   hal::SoftBoard board_;
+  firmware::app::Parameters parameters_;
   std::array<hal::CanBus*, kBusCount> master_{};
-  firmware::app::ControlLoop firmware_;
+  firmware::app::ControlLoop::Buses foot_{};
+  std::optional<firmware::app::ControlLoop> firmware_;  // always there; it can start anew
   Supervisor supervisor_;
   std::vector<DriveNode> drives_;
   std::int64_t exchange_ns_;

@@ -1,5 +1,6 @@
 #include "tools/cli/experiment_options.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -148,12 +149,14 @@ std::string examples(Experiment experiment) {
            "  hoof sinkage\n"
            "  hoof sinkage --foot traditional --load 40 --speed 0.1 --bed bench --seed 3\n"
            "  hoof sinkage --foot bionic --toe 30 --load 400N --out runs/toe-30 --force\n"
+           "  hoof sinkage --terrain rigid --faults faults.toml\n"
            "  hoof sinkage --resume runs/toe-30.resume";
   }
   return "Examples:\n"
          "  hoof traction\n"
          "  hoof traction --foot bionic-plain --frequency 1.12 --toe 20\n"
          "  hoof traction --drive prescribed --set bed.depth_mm=100 --threads 2\n"
+         "  hoof traction --terrain rigid --fault kind=torque_loss,target=hip,at_s=2.5,for_s=0.5\n"
          "  hoof traction --bed paper --out runs/paper --checkpoint-every 10\n"
          "  hoof traction --resume runs/paper.resume";
 }
@@ -184,6 +187,33 @@ void add_resume_options(CLI::App& command, ExperimentOptions& options) {
   });
 }
 
+std::string check_fault(const std::string& text) {
+  for (std::string_view rest = text; !rest.empty();) {
+    const std::string_view word = rest.substr(0, rest.find(','));
+    rest.remove_prefix(std::min(rest.size(), word.size() + 1));
+    const std::size_t equals = word.find('=');
+    if (equals == std::string_view::npos || equals == 0) {
+      return "'" + std::string(word) + "' is not of the form key=value";
+    }
+  }
+  return "";
+}
+
+void add_fault_options(CLI::App& command, ExperimentOptions& options) {
+  CLI::Option* file =
+      command
+          .add_option("--faults", options.fault_file, "Faults to put in: TOML, [[fault]] entries")
+          ->type_name("FILE")
+          ->check(CLI::ExistingFile);
+  command
+      .add_option("--fault", options.faults,
+                  "One fault, e.g. kind=drop,target=HipReply,at_s=1.2,for_s=0.05; may be repeated")
+      ->type_name("KEY=VALUE,...")
+      ->allow_extra_args(false)
+      ->excludes(file)
+      ->check(CLI::Validator(check_fault, ""));
+}
+
 const char* name_of(Experiment experiment) {
   return experiment == Experiment::kSinkage ? "sinkage" : "traction";
 }
@@ -197,7 +227,9 @@ void run_or_resume(const ExperimentOptions& options, Experiment experiment) {
   if (!options.resume.empty()) {
     resume_experiment(name_of(experiment), options.resume, output);
   } else {
-    run_experiment(read_run_settings(name_of(experiment), settings_overrides(options)), output);
+    run_experiment(
+        read_run_settings(name_of(experiment), settings_overrides(options), options.fault_file),
+        output);
   }
 }
 
@@ -234,6 +266,7 @@ void add_experiment_options(CLI::App& command, ExperimentOptions& options, Exper
       ->check(one_of({"dem", "rigid"}));
   command.add_option("--bus", options.bus, "CAN interface, e.g. vcan0 [in process]")
       ->type_name("IFACE");
+  add_fault_options(command, options);
   add_run_options(command, options.run);
   add_resume_options(command, options);
   command.footer(examples(experiment));
@@ -266,6 +299,14 @@ std::vector<std::string> settings_overrides(const ExperimentOptions& options) {
   add_text(kTerrainKey, options.terrain);
   add_text(kDriveKey, options.drive);
   add_text(kBusKey, options.bus);
+  for (std::size_t i = 0; i < options.faults.size(); ++i) {
+    std::string_view rest = options.faults[i];
+    while (!rest.empty()) {
+      const std::string_view word = rest.substr(0, rest.find(','));
+      rest.remove_prefix(std::min(rest.size(), word.size() + 1));
+      overrides.push_back("fault." + std::to_string(i) + "." + std::string(word));
+    }
+  }
   if (options.run.seed) add(kSeedKey, std::to_string(*options.run.seed));
   if (options.run.threads) add(kThreadsKey, std::to_string(*options.run.threads));
   overrides.insert(overrides.end(), options.run.settings.begin(), options.run.settings.end());

@@ -49,6 +49,8 @@ int run_invocation(const Invocation& invocation) {
     return EXIT_SUCCESS;
   } catch (const Interrupted& stop) {
     return complain(stop.what(), stop.exit_status());
+  } catch (const BarMissed& error) {
+    return complain(error.what(), EXIT_FAILURE);
   } catch (const UserError& error) {
     return complain(error.what(), ExitStatus::kUserError);
   } catch (const hoof::sim::ConfigError& error) {

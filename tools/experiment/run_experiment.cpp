@@ -179,9 +179,12 @@ class Run {
       }
       return !stop_.requested();
     };
+    bridge::FaultTimeline faults(run_.faults, run_.has_drives());
+    bridge::SessionSettings settings = session_settings(run_);
+    if (!run_.faults.empty()) settings.faults = &faults;
     try {
-      const bridge::SessionResult result = bridge::run_session(
-          *experiment_, run_.parameters, *wires, session_settings(run_), observe);
+      const bridge::SessionResult result =
+          bridge::run_session(*experiment_, run_.parameters, *wires, settings, observe);
       progress_->finish();
       return result;
     } catch (const UserError&) {
@@ -255,6 +258,7 @@ class Run {
       std::printf("toes: ordered %.2f deg, reached %.2f, moved by the sand at most %.2f\n",
                   deg("toe_command_rad"), deg("toe_reached_rad"), deg("toe_deflection_rad"));
     }
+    print_faults(r);
     for (const auto& [joint, limited_s] : r.at("torque_limited_s").items()) {
       if (limited_s.get<double>() > 0) {
         std::printf("%s drive: at its torque limit for %.2f s\n", joint.c_str(),
