@@ -20,6 +20,7 @@ struct BusStatus {
   bool error_passive = false;
   std::uint8_t transmit_error_count = 0;
   std::uint8_t receive_error_count = 0;
+  std::uint8_t free = 3;       // frames that send() takes now; those of a bxCAN where not known
   std::uint64_t sent = 0;      // frames that left this node
   std::uint64_t received = 0;  // frames handed to this node
   std::uint64_t dropped = 0;   // frames lost on the way to this node (full queue, kernel drop)

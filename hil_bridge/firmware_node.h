@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "firmware/app/control_loop.h"
@@ -22,6 +23,14 @@ class FirmwareNode {
   /// What is known of the firmware's last tick: all of it in this process, else what the bus tells.
   virtual const firmware::app::Telemetry& telemetry() const = 0;
   virtual firmware::control::Mode mode() const { return telemetry().mode; }
+  virtual firmware::control::FaultBits faults() const { return telemetry().faults; }
+
+  /// The board under the firmware, its button and its supply; null where it is out of reach.
+  virtual hal::SoftBoard* board() { return nullptr; }
+
+  /// Ends the firmware where it is and starts it anew, knowing nothing but its parameters.
+  /// @return false where that cannot be done from here
+  virtual bool restart(hal::ResetCause) { return false; }
 
   /// Who does not answer any more, since which tick; empty while all is well.
   virtual const std::string& lost() const {
@@ -38,15 +47,27 @@ class LocalFirmware final : public FirmwareNode {
  public:
   LocalFirmware(hal::CanBus& bus0, hal::CanBus& bus1, const hal::Clock& clock,
                 const firmware::app::Parameters& parameters)
-      : loop_({&bus0, &bus1}, clock, board_, parameters) {}
+      : buses_{&bus0, &bus1}, clock_(clock), parameters_(parameters) {
+    loop_.emplace(buses_, clock_, board_, parameters_);
+  }
 
-  void poll(std::uint32_t) override { loop_.poll(); }
-  const firmware::app::Telemetry& telemetry() const override { return loop_.telemetry(); }
-  firmware::control::Mode mode() const override { return loop_.mode(); }
+  void poll(std::uint32_t) override { loop_->poll(); }
+  const firmware::app::Telemetry& telemetry() const override { return loop_->telemetry(); }
+  firmware::control::Mode mode() const override { return loop_->mode(); }
+  firmware::control::FaultBits faults() const override { return loop_->faults(); }
+  hal::SoftBoard* board() override { return &board_; }
+  bool restart(hal::ResetCause cause) override {
+    board_.cause = cause;
+    loop_.emplace(buses_, clock_, board_, parameters_);
+    return true;
+  }
 
  private:
+  firmware::app::ControlLoop::Buses buses_;
+  const hal::Clock& clock_;
+  firmware::app::Parameters parameters_;
   hal::SoftBoard board_;
-  firmware::app::ControlLoop loop_;
+  std::optional<firmware::app::ControlLoop> loop_;  // always there; it can start anew
 };
 
 }  // namespace hoof::bridge

@@ -41,9 +41,9 @@ LockStep::LockStep(sim::Experiment& experiment, const FirmwareMaker& firmware, W
                    Pace* pace)
     : experiment_(experiment),
       wires_(wires),
-      master_{&wires.attach(0, "sync"), &wires.attach(1, "sync")},
-      firmware_(firmware(wires.attach(0, "foot"), wires.attach(1, "foot"), clock_)),
-      supervisor_(wires.attach(0, "supervisor")),
+      master_{&wires.attach(0, kSyncNode), &wires.attach(1, kSyncNode)},
+      firmware_(firmware(wires.attach(0, kFootNode), wires.attach(1, kFootNode), clock_)),
+      supervisor_(wires.attach(0, kSupervisorNode)),
       exchange_ns_(whole_exchange_ns(experiment.plant().settings().exchange_s)),
       pace_(pace) {
   drives_.reserve(sim::kJointCount);  // nodes keep references, they must not move

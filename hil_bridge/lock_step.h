@@ -52,6 +52,7 @@ class LockStep {
 
   Supervisor& supervisor() { return supervisor_; }
   const Supervisor& supervisor() const { return supervisor_; }
+  FirmwareNode& firmware() { return *firmware_; }
   const FirmwareNode& firmware() const { return *firmware_; }
   const TickTorques& torques() const { return torques_; }
   std::uint32_t ticks() const { return tick_; }

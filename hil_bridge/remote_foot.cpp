@@ -4,7 +4,6 @@
 #include <stdexcept>
 
 #include "firmware/protocol/dictionary.h"
-#include "hal/in_process/in_process_bus.h"
 #include "hal/monotonic_clock.h"
 
 namespace hoof::bridge {
@@ -182,9 +181,7 @@ void RemoteFoot::put_on_wire(int bus, const hal::CanFrame& frame) {
 }
 
 int RemoteFoot::free_mailboxes(int bus) const {
-  const auto* port = dynamic_cast<const hal::InProcessPort*>(buses_[bus]);
-  const int free = port != nullptr ? port->free_mailboxes() : 3;  // those of a bxCAN
-  return std::max(0, free - int(waiting_[bus].size()));
+  return std::max(0, int(buses_[bus]->status().free) - int(waiting_[bus].size()));
 }
 
 /// Only where the wires' connection does not tell how many it takes can anything wait here.

@@ -19,12 +19,17 @@ class Session {
         wires_(wires),
         settings_(settings),
         observer_(observer),
-        lock_step_(experiment, firmware, wires, pace) {}
+        lock_step_(experiment, firmware, settings.faults ? settings.faults->wires(wires) : wires,
+                   pace) {
+    if (settings_.faults) settings_.faults->bind(lock_step_, experiment_);
+  }
 
   SessionResult run() {
     result_.toe_command_rad = settings_.toe_rad;
     if (prepare() && perform()) close();
+    if (ended_ && !result_.interrupted) recover();
     finish();
+    if (settings_.faults && !result_.interrupted) settings_.faults->require_changes();
     return result_;
   }
 
@@ -34,10 +39,10 @@ class Session {
     const bool go_on = record_tick();
     if (!lock_step_.firmware().lost().empty()) run_on_in_silence();
     if (const std::string& trouble = lock_step_.supervisor().trouble(); !trouble.empty()) {
-      throw std::runtime_error("at " + std::to_string(experiment_.time_s()) + " s: " + trouble);
+      end("at " + std::to_string(experiment_.time_s()) + " s: " + trouble);
     }
-    result_.interrupted = !go_on;
-    return go_on;
+    result_.interrupted = result_.interrupted || !go_on;
+    return go_on && !ended_;
   }
 
   bool record_tick() {
@@ -49,6 +54,7 @@ class Session {
       result_.torque_peak_Nm[j] = std::max(result_.torque_peak_Nm[j], record.torques.peak_Nm[j]);
       result_.torque_limited_s[j] += record.torques.limited_s[j];
     }
+    if (settings_.faults) note_faults(record);
     return !observer_ || observer_(record);
   }
 
@@ -84,6 +90,44 @@ class Session {
                              " s: " + lock_step_.firmware().lost() + text);
   }
 
+  /// Without faults an error; with them the end of the test.
+  void end(const std::string& why) {
+    if (!settings_.faults) throw std::runtime_error(why);
+    if (!ended_) result_.ended_by = why;
+    ended_ = true;
+  }
+
+  void note_faults(const TickRecord& record) {
+    settings_.faults->update(record);
+    if (!settings_.faults->first_s()) return;
+    watch_.note(record.plant.time_s, experiment_.plant(), record.firmware,
+                lock_step_.firmware().faults());
+  }
+
+  /// The foot comes to rest, the faults end, and an operator resets it.
+  void recover() {
+    const auto at_rest = [this] {
+      const Mode mode = Mode(lock_step_.firmware().mode());
+      return mode == Mode::kOff || mode == Mode::kFault || mode == Mode::kEmergencyOff;
+    };
+    const auto go_on = [this](double limit_s, const auto& until) {
+      const double from_s = experiment_.time_s();
+      while (!until() && experiment_.time_s() - from_s < limit_s) {
+        tick();
+        if (result_.interrupted) return false;
+      }
+      return until();
+    };
+    if (!go_on(settings_.rest_limit_s, at_rest)) return;
+    const auto over = [this] { return !settings_.faults->any_active(); };
+    if (!go_on(settings_.rest_limit_s, over)) return;
+    lock_step_.supervisor().order(Order::kReset);
+    const auto reset = [this] {
+      return lock_step_.supervisor().accepted() && lock_step_.firmware().faults() == 0;
+    };
+    if (go_on(settings_.reset_limit_s, reset)) watch_.note_reset(experiment_.time_s());
+  }
+
   static double mean_opening(const sim::Observation& o) {
     return 0.5 * (o.toe_left_rad + o.toe_right_rad);
   }
@@ -115,7 +159,7 @@ class Session {
     lock_step_.supervisor().order(Order::kReady, settings_.toe_rad);
     while (!ready()) {
       if (!tick()) return false;
-      if (experiment_.time_s() > settings_.prepare_limit_s) throw_not_ready();
+      if (experiment_.time_s() > settings_.prepare_limit_s) return not_ready();
     }
     if (settings_.has_toes) {
       const sim::Rig& rig = experiment_.plant().rig();
@@ -124,13 +168,13 @@ class Session {
     return true;
   }
 
-  [[noreturn]] void throw_not_ready() {
+  bool not_ready() {
     const firmware::app::Telemetry& t = lock_step_.firmware().telemetry();
-    throw std::runtime_error("the foot did not become ready within " +
-                             std::to_string(settings_.prepare_limit_s) +
-                             " s of simulated time: mode " + std::to_string(int(t.mode)) +
-                             ", toes at " + std::to_string(double(t.state[0].position_rad)) +
-                             " of " + std::to_string(settings_.toe_rad) + " rad");
+    end("the foot did not become ready within " + std::to_string(settings_.prepare_limit_s) +
+        " s of simulated time: mode " + std::to_string(int(t.mode)) + ", toes at " +
+        std::to_string(double(t.state[0].position_rad)) + " of " +
+        std::to_string(settings_.toe_rad) + " rad");
+    return false;
   }
 
   bool perform() {
@@ -139,7 +183,7 @@ class Session {
       // The leg goes to the start of its path first, by itself; the test waits for the gait.
       while (!running()) {
         if (!tick()) return false;
-        if (experiment_.time_s() > 2 * settings_.prepare_limit_s) throw_not_ready();
+        if (experiment_.time_s() > 2 * settings_.prepare_limit_s) return not_ready();
       }
     }
     experiment_.foot_ready();
@@ -164,6 +208,9 @@ class Session {
       result_.bus_load_ratio[bus] = wires_.load_ratio(bus);
       result_.worst_bus_load_ratio[bus] = wires_.worst_load_ratio(bus);
     }
+    if (!settings_.faults) return;
+    result_.faults = settings_.faults->outcomes();
+    result_.reaction = watch_.reaction();
   }
 
   sim::Experiment& experiment_;
@@ -172,6 +219,8 @@ class Session {
   const TickObserver& observer_;
   LockStep lock_step_;
   SessionResult result_;
+  ReactionWatch watch_;
+  bool ended_ = false;  // by what the firmware reported
 };
 
 }  // namespace

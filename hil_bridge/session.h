@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "hil_bridge/fault_timeline.h"
 #include "hil_bridge/lock_step.h"
+#include "hil_bridge/reaction.h"
 
 namespace hoof::bridge {
 
@@ -19,6 +21,11 @@ struct SessionSettings {
   double prepare_limit_s = 8;          // longest homing and opening, simulated
   int closing_ticks = 20;              // after the order to stop at the end
   int silent_ticks = 40;               // that the plant goes on without an answer of the firmware
+  /// Faults to be put in, or null. With faults the session does not throw at what the firmware
+  /// reports: it ends there, lets the foot come to rest, and tries a reset.
+  FaultTimeline* faults = nullptr;
+  double rest_limit_s = 10;    // longest wait for the foot to come to rest, and for the faults' end
+  double reset_limit_s = 0.5;  // longest wait for a reset to work
 };
 
 /// Everything of one control tick, for recorders.
@@ -40,6 +47,10 @@ struct SessionResult {
   std::uint32_t gate_interventions = 0;
   std::array<double, kBusCount> bus_load_ratio{};
   std::array<double, kBusCount> worst_bus_load_ratio{};
+  // With faults only.
+  std::vector<FaultOutcome> faults;
+  std::optional<Reaction> reaction;
+  std::string ended_by;  // what the firmware reported, in words; empty: the test came to its end
 };
 
 /// Called after every tick; returns false to stop.
@@ -47,7 +58,8 @@ using TickObserver = std::function<bool(const TickRecord&)>;
 
 /// Runs the experiment to its end: home, open the toes, go on, stop.
 /// @throws std::runtime_error when the firmware refuses or faults, the foot does not become ready
-/// in time, or the plant diverges: what, when and the mode
+/// in time, or the plant diverges: what, when and the mode; and, with faults, when one of them
+/// never began or changed nothing
 SessionResult run_session(sim::Experiment& experiment, const firmware::app::Parameters& parameters,
                           Wires& wires, const SessionSettings& settings,
                           const TickObserver& observer);

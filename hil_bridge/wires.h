@@ -14,6 +14,11 @@ namespace hoof::bridge {
 
 inline constexpr int kBusCount = int(firmware::protocol::kBusCount);
 
+/// Names of nodes; those of the drives are their joints'.
+inline constexpr char kSyncNode[] = "sync";
+inline constexpr char kFootNode[] = "foot";
+inline constexpr char kSupervisorNode[] = "supervisor";
+
 class Wires {
  public:
   /// Called for every frame on any bus, in order; the frame's stamp counts from the run's time 0.

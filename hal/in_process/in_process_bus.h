@@ -63,7 +63,11 @@ class InProcessPort final : public CanBus {
  public:
   SendResult send(const CanFrame& frame) override;
   bool receive(CanFrame& frame) override;
-  BusStatus status() const override { return status_; }
+  BusStatus status() const override {
+    BusStatus status = status_;
+    status.free = static_cast<std::uint8_t>(free_mailboxes());
+    return status;
+  }
 
   /// Frames that no filter accepts never reach the queue. An empty list accepts everything.
   void set_filters(std::vector<CanFilter> filters) { filters_ = std::move(filters); }

@@ -24,7 +24,7 @@ Drive::Drive(const DriveSettings& settings, double joint_position_rad)
       joint_position_rad_(joint_position_rad) {
   settings_.validate();
   if (!settings_.absolute_position) zero();
-  sampled_position_rad_ = encoder_position_rad();
+  sampled_position_rad_ = counted_position_rad_ = encoder_position_rad();
 }
 
 void Drive::enable() {
@@ -39,8 +39,16 @@ void Drive::disable() {
 
 void Drive::zero() {
   zero_rad_ = position_rad_;
-  sampled_position_rad_ = 0.0;
+  sampled_position_rad_ = counted_position_rad_ = 0.0;
   sampled_velocity_rad_s_ = 0.0;
+}
+
+void Drive::restart() {
+  disable();
+  error_ = DriveError::kNone;
+  command_ = {};
+  command_age_s_ = settings_.command_timeout_s;
+  if (!settings_.absolute_position) zero();
 }
 
 void Drive::command(const DriveCommand& command) {
@@ -55,17 +63,27 @@ double Drive::encoder_position_rad() const {
 }
 
 void Drive::sample_encoder(double dt_s) {
-  const double position = encoder_position_rad();
-  const double difference = (position - sampled_position_rad_) / dt_s;
+  double position = encoder_position_rad();
+  for (DriveEffect* effect : effects_) position = effect->encoder_rad(position, dt_s);
+  const double difference = (position - counted_position_rad_) / dt_s;
   const double share =
       1.0 - std::exp(-2.0 * std::numbers::pi * settings_.velocity_filter_Hz * dt_s);
   sampled_velocity_rad_s_ += share * (difference - sampled_velocity_rad_s_);
-  sampled_position_rad_ = position;
+  counted_position_rad_ = sampled_position_rad_ = position;
+  for (DriveEffect* effect : effects_) sampled_position_rad_ += effect->zero_shift_rad();
+}
+
+bool Drive::obeys() const {
+  return enabled_ && command_age_s_ < settings_.command_timeout_s && error_ == DriveError::kNone;
+}
+
+bool Drive::passive(double torque_Nm, double velocity_rad_s) const {
+  return !obeys() || (command_.kp_Nm_rad == 0.0 && std::abs(command_.torque_Nm) <= torque_Nm &&
+                      std::abs(command_.velocity_rad_s) <= velocity_rad_s);
 }
 
 double Drive::law_torque_Nm() const {
-  const bool fresh = command_age_s_ < settings_.command_timeout_s;
-  if (!enabled_ || !fresh || error_ != DriveError::kNone) return 0.0;
+  if (!obeys()) return 0.0;
   return command_.kp_Nm_rad * (command_.position_rad - sampled_position_rad_) +
          command_.kd_Nm_s_rad * (command_.velocity_rad_s - sampled_velocity_rad_s_) +
          command_.torque_Nm;
@@ -94,9 +112,14 @@ double Drive::rotor_substep(double h_s, double q_j, double w_j) {
   const double push = motor_torque_Nm_ - k * (position_rad_ - q_j) + c * w_j;
   const double mass = J + h_s * (c + b);
   const double free = (J * start + h_s * push) / mass;
-  const double most = h_s * s.coulomb_friction_Nm / mass;
+  double coulomb_Nm = s.coulomb_friction_Nm;
+  for (const DriveEffect* effect : effects_) coulomb_Nm += effect->friction_Nm();
+  const double most = h_s * coulomb_Nm / mass;
   const double w = std::abs(free) <= most ? 0.0 : free - std::copysign(most, free);
   const double friction_Nm = b * w + (free - w) * mass / h_s;
+  for (DriveEffect* effect : effects_) {
+    effect->note_friction(friction_Nm - b * w, s.coulomb_friction_Nm);
+  }
 
   // The gear's torque over the sub-step is what changed the rotor, not what the spring says at one
   // of its ends: momentum between rotor and joint is kept to the last bit.
@@ -127,6 +150,7 @@ double Drive::step(double dt_s, double joint_position_rad, double joint_velocity
 
   sample_encoder(dt_s);
   motor_torque_Nm_ = limited_torque_Nm(law_torque_Nm());
+  for (DriveEffect* effect : effects_) motor_torque_Nm_ = effect->motor_torque_Nm(motor_torque_Nm_);
   command_age_s_ += dt_s;
 
   // The multibody side is a leapfrog: the torque of this step takes its velocity from half a step

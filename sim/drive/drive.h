@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "sim/drive/drive_settings.h"
+#include "sim/effects/drive_effect.h"
 
 namespace hoof::sim {
 
@@ -63,6 +65,18 @@ class Drive {
   void disable();
   bool enabled() const { return enabled_; }
 
+  /// The supply was gone and is back: disabled, without error or command. A drive without an
+  /// absolute encoder counts from where it wakes up.
+  void restart();
+
+  /// Something that is wrong with this drive from its start() on; it must outlive the drive.
+  void add_effect(DriveEffect& effect) { effects_.push_back(&effect); }
+
+  /// True while the drive cannot push by itself: off, without a fresh command, or damping only. A
+  /// feed-forward of no more than `torque_Nm` and a speed target of no more than `velocity_rad_s`
+  /// count as none: the wire has no code for zero.
+  bool passive(double torque_Nm, double velocity_rad_s) const;
+
   /// Makes the present encoder position the zero of commands and readings.
   void zero();
 
@@ -84,6 +98,7 @@ class Drive {
 
  private:
   double encoder_position_rad() const;
+  bool obeys() const;
   void sample_encoder(double dt_s);
   double law_torque_Nm() const;
   double limited_torque_Nm(double wanted_Nm) const;
@@ -99,7 +114,9 @@ class Drive {
   double position_rad_;
   double velocity_rad_s_ = 0.0;
   double zero_rad_ = 0.0;
-  double sampled_position_rad_ = 0.0;
+  std::vector<DriveEffect*> effects_;
+  double counted_position_rad_ = 0.0;  // what speed is the difference of
+  double sampled_position_rad_ = 0.0;  // that, and what shifts the zero
   double sampled_velocity_rad_s_ = 0.0;
   double motor_torque_Nm_ = 0.0;
   double temperature_C_;

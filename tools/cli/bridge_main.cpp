@@ -7,6 +7,7 @@
 
 #include "tools/cli/bus_options.h"
 #include "tools/cli/exit_status.h"
+#include "tools/cli/fault_options.h"
 #include "tools/cli/run_options.h"
 #include "tools/experiment/run_experiment.h"
 
@@ -18,6 +19,7 @@ struct BridgeOptions {
   std::string experiment = "sinkage";
   std::string terrain;
   BusOptions bus;
+  FaultOptions faults;
   RunOptions run;
 };
 
@@ -29,6 +31,7 @@ void add_options(CLI::App& app, BridgeOptions& options) {
   app.add_option("--terrain", options.terrain, "Grains (dem) or a rigid plane")
       ->type_name("dem|rigid")
       ->check(CLI::IsMember({"dem", "rigid"}));
+  add_fault_options(app, options.faults);
   add_run_options(app, options.run);
   app.footer(
       "The firmware must be on the bus already; its parameters are set from here, over the bus.\n"
@@ -52,7 +55,8 @@ void run(const BridgeOptions& options) {
     overrides.push_back("experiment.threads=" + std::to_string(*options.run.threads));
   }
   overrides.insert(overrides.end(), options.run.settings.begin(), options.run.settings.end());
-  run_experiment(read_run_settings(options.experiment, overrides), output);
+  add_fault_overrides(options.faults, overrides);
+  run_experiment(read_run_settings(options.experiment, overrides, options.faults.file), output);
 }
 
 }  // namespace

@@ -38,6 +38,8 @@ int run_to_status(const std::string& program, const std::function<void()>& run) 
   } catch (const Differs& result) {
     std::cout << result.what() << std::endl;
     return Differs::kExitStatus;
+  } catch (const BarMissed& error) {
+    return complain(program, error.what(), static_cast<ExitStatus>(EXIT_FAILURE));
   } catch (const UserError& error) {
     return complain(program, error.what(), ExitStatus::kUserError);
   } catch (const sim::ConfigError& error) {

@@ -150,6 +150,7 @@ std::string examples(Experiment experiment) {
            "  hoof sinkage\n"
            "  hoof sinkage --foot traditional --load 40 --speed 0.1 --bed bench --seed 3\n"
            "  hoof sinkage --foot bionic --toe 30 --load 400N --out runs/toe-30 --force\n"
+           "  hoof sinkage --terrain rigid --faults faults.toml\n"
            "  hoof sinkage --resume runs/toe-30.resume\n"
            "  hoof sinkage --bus vcan0                          firmware and plant as two "
            "processes\n"
@@ -159,6 +160,7 @@ std::string examples(Experiment experiment) {
          "  hoof traction\n"
          "  hoof traction --foot bionic-plain --frequency 1.12 --toe 20\n"
          "  hoof traction --drive prescribed --set bed.depth_mm=100 --threads 2\n"
+         "  hoof traction --terrain rigid --fault kind=torque_loss,target=hip,at_s=2.5,for_s=0.5\n"
          "  hoof traction --bed paper --out runs/paper --checkpoint-every 10\n"
          "  hoof traction --resume runs/paper.resume";
 }
@@ -195,7 +197,7 @@ const char* name_of(Experiment experiment) {
 
 /// hoof-firmware and hoof-bridge with the same settings.
 void run_on_bus(const RunSettings& run, const RunOutput& output,
-                const std::vector<std::string>& overrides) {
+                const std::vector<std::string>& overrides, const std::string& fault_file) {
   std::vector<std::string> what = {"--experiment", run.kind};
   const auto add = [&what](const std::string& flag, const std::string& value) {
     what.insert(what.end(), {flag, value});
@@ -203,6 +205,7 @@ void run_on_bus(const RunSettings& run, const RunOutput& output,
   add("--clock", output.bus.real_time ? "real-time" : "lock-step");
   add("--patience", std::to_string(output.bus.patience_s));
   for (const std::string& setting : overrides) add("--set", setting);
+  if (!fault_file.empty()) add("--faults", fault_file);
   if (!output.out.empty()) add("--out", output.out.string());
   if (output.force) what.emplace_back("--force");
   if (output.live) what.emplace_back("--live");
@@ -232,11 +235,11 @@ void run_or_resume(const ExperimentOptions& options, Experiment experiment) {
     return;
   }
   const std::vector<std::string> overrides = settings_overrides(options);
-  const RunSettings run = read_run_settings(kind, overrides);
+  const RunSettings run = read_run_settings(kind, overrides, options.faults.file);
   if (run.bus == kInProcess) {
     run_experiment(run, output);
   } else {
-    run_on_bus(run, output, overrides);
+    run_on_bus(run, output, overrides, options.faults.file);
   }
 }
 
@@ -272,6 +275,7 @@ void add_experiment_options(CLI::App& command, ExperimentOptions& options, Exper
       ->type_name("dem|rigid")
       ->check(one_of({"dem", "rigid"}));
   add_bus_options(command, options.bus);
+  add_fault_options(command, options.faults);
   add_run_options(command, options.run);
   add_resume_options(command, options);
   command.footer(examples(experiment));
@@ -304,6 +308,7 @@ std::vector<std::string> settings_overrides(const ExperimentOptions& options) {
   add_text(kTerrainKey, options.terrain);
   add_text(kDriveKey, options.drive);
   add_text(kBusKey, options.bus.bus);
+  add_fault_overrides(options.faults, overrides);
   if (options.run.seed) add(kSeedKey, std::to_string(*options.run.seed));
   if (options.run.threads) add(kThreadsKey, std::to_string(*options.run.threads));
   overrides.insert(overrides.end(), options.run.settings.begin(), options.run.settings.end());

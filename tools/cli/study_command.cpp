@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "tools/cli/commands.h"
+#include "tools/cli/fault_matrix_command.h"
 #include "tools/study/study.h"
 
 namespace hoof::tools {
@@ -68,14 +69,15 @@ CLI::App* add_study(CLI::App& parent, Invocation& invocation, const char* name, 
 
 void add_study_command(CLI::App& app, Invocation& invocation) {
   CLI::App* command =
-      app.add_subcommand("study", "Find out which bed, step and box may be believed");
+      app.add_subcommand("study", "Which bed, step and box may be believed; faults in every mode");
   command->require_subcommand(1);
   command->footer(
       "Examples:\n"
       "  hoof study resolution                       coarse grains, minutes\n"
       "  hoof study resolution --full --threads 2    to the paper's grains, an hour\n"
       "  hoof study box --bodies foot --beds 3\n"
-      "  hoof study time-step --scales 1");
+      "  hoof study time-step --scales 1\n"
+      "  hoof study faults --jobs 2                  every fault in every mode, a minute");
   add_study(*command, invocation, "resolution",
             "Spined against plain, open against closed: effect over the scatter of beds",
             run_resolution_study);
@@ -86,6 +88,7 @@ void add_study_command(CLI::App& app, Invocation& invocation) {
             run_cell_size_study);
   add_study(*command, invocation, "box", "Length, width and depth of the box against the force",
             run_box_study);
+  add_fault_matrix(*command, invocation);
 }
 
 }  // namespace hoof::tools

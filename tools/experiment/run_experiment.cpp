@@ -189,10 +189,13 @@ class Run {
       }
       return !stop_.requested();
     };
+    bridge::FaultTimeline faults(run_.faults, run_.has_drives());
+    bridge::SessionSettings settings = session_settings(run_);
+    if (!run_.faults.empty()) settings.faults = &faults;
     try {
       bridge::Wires& wires = bus_->start(log);
       const bridge::SessionResult result = bridge::run_session(
-          *experiment_, bus_->firmware(), wires, session_settings(run_), observe, bus_->pace());
+          *experiment_, bus_->firmware(), wires, settings, observe, bus_->pace());
       progress_->finish();
       return result;
     } catch (const UserError&) {
@@ -266,6 +269,7 @@ class Run {
       std::printf("toes: ordered %.2f deg, reached %.2f, moved by the sand at most %.2f\n",
                   deg("toe_command_rad"), deg("toe_reached_rad"), deg("toe_deflection_rad"));
     }
+    print_faults(r);
     for (const auto& [joint, limited_s] : r.at("torque_limited_s").items()) {
       if (limited_s.get<double>() > 0) {
         std::printf("%s drive: at its torque limit for %.2f s\n", joint.c_str(),

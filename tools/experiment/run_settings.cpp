@@ -5,6 +5,7 @@
 #include <string_view>
 #include <thread>
 
+#include "hil_bridge/fault_targets.h"
 #include "sim/config/config_error.h"
 #include "sim/config/reader.h"
 #include "sim/config/suggestion.h"
@@ -16,9 +17,9 @@ namespace {
 
 using firmware::app::Parameters;
 
-constexpr std::array<std::string_view, 10> kSections = {
-    "experiment", "foot",     "leg",           "bed",     "materials",
-    "drives",     "coupling", "rigid_terrain", "control", "use"};
+constexpr std::array<std::string_view, 11> kSections = {
+    "experiment", "foot",          "leg",     "bed", "materials", "drives",
+    "coupling",   "rigid_terrain", "control", "use", "fault"};
 
 void refuse_unknown_sections(const sim::Settings& tree) {
   for (const auto& [key, entry] : tree.entries()) {
@@ -27,7 +28,7 @@ void refuse_unknown_sections(const sim::Settings& tree) {
       throw sim::ConfigError(entry.origin.text() + ": " + key + ": no section '" +
                              std::string(section) +
                              "'; known are experiment, foot, leg, bed, "
-                             "materials, drives, coupling, rigid_terrain, control");
+                             "materials, drives, coupling, rigid_terrain, control, fault");
     }
   }
 }
@@ -145,12 +146,35 @@ void read_drives(const sim::Reader& root, RunSettings& run) {
   }
 }
 
+void merge_faults(const std::string& fault_file, sim::Settings& tree) {
+  const sim::Settings faults = sim::Settings::load_file(fault_file);
+  for (const auto& [key, entry] : faults.entries()) {
+    if (key.starts_with("fault.")) continue;
+    fail(entry, key, "a file of faults has [[fault]] entries only");
+  }
+  if (faults.entries().empty()) {
+    throw sim::ConfigError(fault_file + ": no [[fault]] entry");
+  }
+  tree.merge(faults);
+}
+
+void read_faults(RunSettings& run) {
+  run.faults = bridge::read_faults(run.tree);
+  for (const bridge::FaultSpec& fault : run.faults) bridge::find_target(fault, run.has_drives());
+}
+
 }  // namespace
 
+std::array<bool, sim::kJointCount> RunSettings::has_drives() const {
+  return {drives[0].has_value(), drives[1].has_value(), drives[2].has_value()};
+}
+
 RunSettings read_run_settings(const std::string& experiment,
-                              const std::vector<std::string>& overrides) {
+                              const std::vector<std::string>& overrides,
+                              const std::string& fault_file) {
   RunSettings run;
   run.tree = sim::Settings::load_experiment(experiment, overrides);
+  if (!fault_file.empty()) merge_faults(fault_file, run.tree);
   refuse_unknown_sections(run.tree);
   const sim::Reader root(run.tree);
   read_experiment(root, run);
@@ -172,6 +196,7 @@ RunSettings read_run_settings(const std::string& experiment,
   run.rigid = sim::read_rigid_terrain(root.section("rigid_terrain"));
   run.parameters = rig_parameters(run);
   read_control(run.tree, run.parameters);
+  read_faults(run);
   return run;
 }
 

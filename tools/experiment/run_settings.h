@@ -1,11 +1,13 @@
 // The settings of a sinkage or traction run, read and checked as a whole before anything is built.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "firmware/app/parameters.h"
+#include "hil_bridge/fault_spec.h"
 #include "sim/config/settings.h"
 #include "sim/coupling/plant.h"
 #include "sim/experiments/sinkage.h"
@@ -36,16 +38,20 @@ struct RunSettings {
   sim::SinkageSettings sinkage;    // of a sinkage run
   sim::TractionSettings traction;  // of a traction run
   firmware::app::Parameters parameters;
+  std::vector<bridge::FaultSpec> faults;  // put in on the way; none in a clean run
 
   bool is_sinkage() const { return kind == "sinkage"; }
   double toe_rad() const { return is_sinkage() ? sinkage.toe_rad : traction.toe_rad; }
+  std::array<bool, sim::kJointCount> has_drives() const;
   bool firmware_leg() const { return !is_sinkage() && !traction.prescribed; }
 };
 
 /// @param experiment "sinkage", "traction" or a TOML file of one
 /// @param overrides "dotted.key=value", as of --set; keys "control.NAME" are firmware parameters
+/// @param fault_file TOML with [[fault]] entries and nothing else; "" for none
 /// @throws sim::ConfigError, UserError: one line that names file, key, value and bound
 RunSettings read_run_settings(const std::string& experiment,
-                              const std::vector<std::string>& overrides);
+                              const std::vector<std::string>& overrides,
+                              const std::string& fault_file = "");
 
 }  // namespace hoof::tools

@@ -66,6 +66,36 @@ Json ground(const RunSettings& run, const sim::Experiment& experiment) {
   return j;
 }
 
+Json seconds(const std::optional<double>& time_s) {
+  return time_s ? Json(*time_s) : Json(nullptr);
+}
+
+Json faults(const bridge::SessionResult& session) {
+  Json j = Json::object();
+  for (const bridge::FaultOutcome& fault : session.faults) {
+    j[fault.name] = {{"began_s", seconds(fault.began_s)},
+                     {"ended_s", seconds(fault.ended_s)},
+                     {"changed", fault.changed}};
+  }
+  return j;
+}
+
+Json reaction(const bridge::SessionResult& session) {
+  const bridge::Reaction& r = *session.reaction;
+  std::optional<double> first_s, until_safe_s;
+  for (const bridge::FaultOutcome& fault : session.faults) {
+    if (fault.began_s && (!first_s || *fault.began_s < *first_s)) first_s = fault.began_s;
+  }
+  if (first_s && r.safe_s) until_safe_s = std::max(0.0, *r.safe_s - *first_s);
+  return {{"faults", bridge::fault_bit_names(r.faults)},
+          {"ended_by", session.ended_by},
+          {"tripped_s", seconds(r.tripped_s)},
+          {"safe_s", seconds(r.safe_s)},
+          {"from_fault_to_safe_s", seconds(until_safe_s)},
+          {"reset_s", seconds(r.reset_s)},
+          {"mode", r.mode}};
+}
+
 Json firmware_identity(const RunSettings& run) {
   char hash[11];
   std::snprintf(hash, sizeof hash, "0x%08x", firmware::protocol::kProtocolHash);
@@ -78,6 +108,28 @@ Json firmware_identity(const RunSettings& run) {
 }
 
 }  // namespace
+
+void print_faults(const Json& result) {
+  if (!result.contains("reaction")) return;
+  for (const auto& [name, fault] : result["faults"].items()) {
+    std::printf("%s: from %.3f s on, changed %s\n", name.c_str(), fault["began_s"].get<double>(),
+                fault["changed"].dump().c_str());
+  }
+  const Json& r = result["reaction"];
+  const auto time = [&r](const char* key) {
+    char text[32] = "never";
+    if (!r[key].is_null()) std::snprintf(text, sizeof text, "%.3f s", r[key].get<double>());
+    return std::string(text);
+  };
+  const auto bits = r["faults"].get<std::string>();
+  if (bits.empty()) {
+    std::printf("firmware: no fault; mode %s\n", r["mode"].get<std::string>().c_str());
+    return;
+  }
+  std::printf("firmware: %s at %s; no drive pushes from %s on; reset worked: %s; mode %s\n",
+              bits.c_str(), time("tripped_s").c_str(), time("safe_s").c_str(),
+              time("reset_s").c_str(), r["mode"].get<std::string>().c_str());
+}
 
 TractionPeaks find_peaks(const std::vector<ForceSample>& forces) {
   TractionPeaks peaks;
@@ -133,6 +185,10 @@ Json summarise(const RunSettings& run, const sim::Experiment& experiment,
   j["gate_interventions"] = session.gate_interventions;
   j["bus_load_ratio"] = by_bus(session.bus_load_ratio);
   j["worst_bus_load_ratio"] = by_bus(session.worst_bus_load_ratio);
+  if (session.reaction) {
+    j["faults"] = faults(session);
+    j["reaction"] = reaction(session);
+  }
   const sim::ExchangeEnergy energy = experiment.plant().exchange_energy();
   j["exchange_work_J"] = energy.work_by_terrain_J;
   j["exchange_error_J"] = energy.error_J();

@@ -32,4 +32,7 @@ TractionPeaks find_peaks(const std::vector<ForceSample>& forces);
 nlohmann::ordered_json summarise(const RunSettings& run, const sim::Experiment& experiment,
                                  const bridge::SessionResult& session, const Recorder& recorder);
 
+/// What became of the faults that were put in, for people; nothing where there were none.
+void print_faults(const nlohmann::ordered_json& result);
+
 }  // namespace hoof::tools

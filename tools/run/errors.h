@@ -25,6 +25,12 @@ class CannotFinish : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The work was done, and what was measured is not as it must be: exit status 1.
+class BarMissed : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// The user asked to stop (see StopRequest); thrown once everything worth keeping is kept.
 class Interrupted : public std::runtime_error {
  public:

@@ -1,0 +1,61 @@
+#!/bin/sh
+# can_utils_test.sh HOOF: the tools people have, on the bus of a run. Runs where vcan0 is.
+set -u
+hoof=$1
+folder=$(mktemp -d "$PWD/can_utils.XXXXXX")
+trap 'rm -rf "$folder"' EXIT
+failed=0
+check() { # WHAT CONDITION...
+  what=$1
+  shift
+  if "$@"; then echo "ok: $what"; else echo "FAILED: $what"; failed=1; fi
+}
+
+# candump hears the run, and its log is lines of our bus.log's format.
+candump -L vcan0 >"$folder/heard.log" &
+listener=$!
+sleep 0.3
+"$hoof" sinkage --terrain rigid --bus vcan0 --quiet --out "$folder/run" >"$folder/run.txt" 2>&1
+check "a run over vcan0 ends well" test $? -eq 0
+sleep 0.3
+kill "$listener"
+heard=$(wc -l <"$folder/heard.log")
+sent=$(wc -l <"$folder/run/bus.log")
+echo "candump heard $heard frames of $sent"
+check "candump heard frames" test "$heard" -gt 100
+check "with SYNC among them" grep -q ' 010#' "$folder/heard.log"
+
+# log2asc reads our log: a line for each frame, and its head.
+log2asc -I "$folder/run/bus.log" -O "$folder/run.asc" can0 can1 vcan0
+check "log2asc takes every frame" test "$(grep -c ' Rx ' "$folder/run.asc")" -eq "$sent"
+
+# canplayer puts the log back on the wire; candump hears the same payloads in the same order.
+head -n 500 "$folder/run/bus.log" | sed 's/) [a-z0-9]* /) can0 /' >"$folder/part.log"
+candump -L -n 500 -T 5000 vcan0 >"$folder/again.log" &
+listener=$!
+sleep 0.3
+canplayer -t -g 1 -I "$folder/part.log" vcan0=can0
+wait "$listener"
+cut -d' ' -f3 "$folder/part.log" >"$folder/a"
+cut -d' ' -f3 "$folder/again.log" >"$folder/b"
+check "canplayer and candump give the log again" cmp -s "$folder/a" "$folder/b"
+
+# cansend presses the e-stop, again and again until the run is over: it ends, and says why.
+(while sleep 0.02; do cansend vcan0 001#010000; done) &
+presser=$!
+"$hoof" sinkage --terrain rigid --bus vcan0 --quiet --out "$folder/stopped" >"$folder/stop.txt" 2>&1
+status=$?
+kill "$presser"
+check "cansend's e-stop ends a run" test "$status" -eq 3
+check "and the run says so" grep -q emergency_stop "$folder/stop.txt"
+
+# cangen with frames that are nobody's: the run does not mind.
+cangen vcan0 -g 1 -I 7FF -L 8 &
+stranger=$!
+"$hoof" sinkage --terrain rigid --bus vcan0 --quiet --out "$folder/flooded" >"$folder/flood.txt" 2>&1
+status=$?
+kill "$stranger"
+check "a run beside cangen ends well" test "$status" -eq 0
+check "cangen was heard" grep -q ' 7FF#' "$folder/flooded/bus.log"
+[ "$failed" -eq 0 ] || cat "$folder"/*.txt
+exit "$failed"
