@@ -2,7 +2,7 @@
 // this process so that nothing is lost however fast the simulator runs; on request also published
 // live.
 //
-// Nothing else in the project includes LCM: rows come in as the plain structs below.
+// LCM stays in the .cpp files here: rows come in as the plain structs below.
 #pragma once
 
 #include <array>

@@ -164,10 +164,18 @@ void add_plot(CLI::App& log, Invocation& invocation) {
 
 void add_spy(CLI::App& log, Invocation& invocation) {
   auto request = std::make_shared<SpyRequest>();
-  CLI::App* command = log.add_subcommand("spy", "Live view of a bus, or of a log being written");
+  CLI::App* command =
+      log.add_subcommand("spy", "Live view of a bus, of LCM channels, or of a log being written");
   auto* file = command->add_option("RUN", request->recording, "A log, or the folder of a run");
   auto* bus = command->add_option("--bus", request->bus, "SocketCAN interfaces: vcan0, can0,can1");
   bus->excludes(file);
+  command
+      ->add_option("--lcm", request->lcm,
+                   "LCM channels instead, of this address or of LCM_DEFAULT_URL")
+      ->expected(0, 1)
+      ->type_name("[URL]")
+      ->excludes(file)
+      ->excludes(bus);
   command->add_flag("--once", request->once, "Print what is there and end");
   command->footer(
       "Examples:\n"
@@ -175,8 +183,8 @@ void add_spy(CLI::App& log, Invocation& invocation) {
       "  hoof log spy runs/.sinkage-2026-01-31-1.partial/bus.log    a run under way\n"
       "Keys: up and down or j and k choose a message, q quits.");
   command->callback([&invocation, request] {
-    if (request->bus.empty() && request->recording.empty()) {
-      throw CLI::ValidationError("give --bus, or a log");
+    if (request->bus.empty() && !request->lcm && request->recording.empty()) {
+      throw CLI::ValidationError("give --bus, --lcm, or a log");
     }
     invocation.run = [request] { spy(*request); };
   });

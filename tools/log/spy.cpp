@@ -15,6 +15,7 @@
 
 #include "hal/socketcan/socketcan_bus.h"
 #include "hil_bridge/candump.h"
+#include "hil_bridge/lcm_event.h"
 #include "tools/log/bus_recording.h"
 #include "tools/log/spy_table.h"
 #include "tools/run/errors.h"
@@ -106,6 +107,28 @@ class BusSource final : public SpySource {
   std::vector<std::unique_ptr<hal::SocketCanBus>> buses_;
 };
 
+class LcmSource final : public SpySource {
+ public:
+  explicit LcmSource(const std::string& url)
+      : listener_(url), title_(url.empty() ? "LCM" : "LCM at " + url) {}
+
+  void drain(SpyTable& table) override {
+    listener_.drain([&table](const bridge::LcmEvent& event) { table.add(event); });
+  }
+
+  std::string title() const override { return title_; }
+
+ private:
+  bridge::LcmListener listener_;
+  std::string title_;
+};
+
+std::unique_ptr<SpySource> open_source(const SpyRequest& request) {
+  if (request.lcm) return std::make_unique<LcmSource>(*request.lcm);
+  if (!request.bus.empty()) return std::make_unique<BusSource>(request.bus);
+  return std::make_unique<LogSource>(request.recording);
+}
+
 /// Keys one by one, another screen; everything back at the end.
 class Terminal {
  public:
@@ -175,24 +198,20 @@ bool obey(const std::string& keys, int& selected, int messages) {
 }
 
 std::string heading(const SpySource& source, const SpyTable& table) {
-  return source.title() + ": " + std::to_string(table.frames()) + " frames";
+  return source.title() + ": " + std::to_string(table.frames()) + " messages";
 }
 
 }  // namespace
 
 void spy(const SpyRequest& request) {
-  std::unique_ptr<SpySource> source;
-  if (!request.bus.empty()) {
-    source = std::make_unique<BusSource>(request.bus);
-  } else {
-    source = std::make_unique<LogSource>(request.recording);
-  }
+  const std::unique_ptr<SpySource> source = open_source(request);
+  const bool live = !request.bus.empty() || request.lcm;
   SpyTable table;
   StopRequest stop;
   if (request.once || isatty(STDOUT_FILENO) == 0 || isatty(STDIN_FILENO) == 0) {
-    // A bus has nothing to show at once: a second of it.
-    for (int i = 0; i < (request.bus.empty() ? 1 : 10) && !stop.requested(); ++i) {
-      if (!request.bus.empty()) ::poll(nullptr, 0, 100);
+    // What is live has nothing to show at once: a second of it.
+    for (int i = 0; i < (live ? 10 : 1) && !stop.requested(); ++i) {
+      if (live) ::poll(nullptr, 0, 100);
       source->drain(table);
     }
     std::cout << table.render(heading(*source, table), 0, 0, 0);

@@ -1,13 +1,15 @@
-// hoof log spy: the bus, live, in a terminal.
+// hoof log spy: the bus, or LCM channels, live, in a terminal.
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace hoof::tools {
 
 struct SpyRequest {
   std::string bus;                  // SocketCAN interfaces "vcan0" or "can0,can1"; or else
+  std::optional<std::string> lcm;   // an LCM address, "" for its default; or else
   std::filesystem::path recording;  // a log, possibly one that is still being written, or a folder
   bool once = false;  // print what is there and end; so, too, where the output is no terminal
 };

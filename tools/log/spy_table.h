@@ -1,4 +1,5 @@
-// What a live view of the bus shows: the last frame of each message, and how often it comes.
+// What a live view shows: the last frame of each message on the bus, or the last event of each LCM
+// channel, and how often it comes.
 #pragma once
 
 #include <cstdint>
@@ -6,8 +7,11 @@
 #include <map>
 #include <string>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include "hal/can_frame.h"
+#include "hil_bridge/lcm_event.h"
 #include "tools/log/decoded_frame.h"
 
 namespace hoof::tools {
@@ -20,6 +24,9 @@ class SpyTable {
   /// @param stamp_ns on any clock, the same for all
   void add(const std::string& interface, const hal::CanFrame& frame, std::int64_t stamp_ns);
 
+  void add(const bridge::LcmEvent& event);
+
+  /// Frames, or events.
   std::uint64_t frames() const { return frames_; }
   int messages() const { return int(rows_.size()); }
 
@@ -29,14 +36,17 @@ class SpyTable {
 
  private:
   struct Row {
-    hal::CanFrame frame;
+    std::variant<hal::CanFrame, bridge::LcmEvent> last;
     std::uint64_t count = 0;
     std::deque<std::int64_t> recent_ns;
   };
+  /// Of a frame its interface and identifier, of an event its channel and 0.
   using Key = std::pair<std::string, std::uint64_t>;
 
+  void count(Row& row, std::int64_t stamp_ns);
   double rate_Hz(const Row& row) const;
   std::string line_of(const Key& key, const Row& row) const;
+  static std::vector<std::string> details_of(const Row& row);
 
   std::map<Key, Row> rows_;
   std::uint64_t frames_ = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <hoof/sample_t.hpp>
 
 using namespace hoof::tools;
 namespace protocol = hoof::firmware::protocol;
@@ -12,6 +13,17 @@ constexpr std::int64_t kMs = 1'000'000;
 
 int lines_in(const std::string& text) {
   return int(std::count(text.begin(), text.end(), '\n'));
+}
+
+hoof::bridge::LcmEvent sample(std::int64_t stamp_ns) {
+  hoof::sample_t message{};
+  message.tick = 712;
+  message.depth_m = 0.0125;
+  message.foot_force_N[2] = -392.4;
+  hoof::bridge::LcmEvent event{"HOOF_SAMPLE", stamp_ns, {}};
+  event.data.resize(std::size_t(message.getEncodedSize()));
+  message.encode(event.data.data(), 0, int(event.data.size()));
+  return event;
 }
 
 }  // namespace
@@ -56,4 +68,36 @@ TEST_CASE("the chosen message shows its values, by name and unit; nothing is wid
 
 TEST_CASE("an empty table is drawn, too") {
   CHECK(lines_in(SpyTable().render("nothing yet", 0, 80, 24)) >= 1);
+}
+
+TEST_CASE("an LCM channel is a row: its type, its rate, and the fields of the last event") {
+  SpyTable table;
+  for (int i = 0; i <= 100; ++i) table.add(sample(i * 10 * kMs));
+  const std::string all = table.render("x", 0, 0, 0);
+  CHECK_THAT(all, Catch::Contains("HOOF_SAMPLE") && Catch::Contains("101     100.0"));
+  CHECK_THAT(all, Catch::Contains("hoof.sample_t"));
+  CHECK_THAT(all, Catch::Contains("tick                     712"));
+  CHECK_THAT(all, Catch::Contains("depth_m                  0.0125"));
+  CHECK_THAT(all, Catch::Contains("foot_force_N             0  0  -392.4"));
+  CHECK(lines_in(table.render("x", 0, 60, 24)) <= 24);
+}
+
+TEST_CASE("an event that is cut off, or of another type, is shown as not known") {
+  hoof::bridge::LcmEvent event = sample(0);
+  const auto whole = event.data;
+  SECTION("cut off") {
+    event.data.pop_back();
+  }
+  SECTION("another fingerprint") {
+    event.data[0] ^= 1;
+  }
+  SECTION("empty") {
+    event.data.clear();
+  }
+  SpyTable table;
+  table.add(event);
+  CHECK_THAT(table.render("x", 0, 0, 0), Catch::Contains("unknown type"));
+  event.data = whole;
+  table.add(event);
+  CHECK_THAT(table.render("x", 0, 0, 0), Catch::Contains("hoof.sample_t"));
 }
