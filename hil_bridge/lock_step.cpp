@@ -28,12 +28,11 @@ std::int64_t whole_exchange_ns(double exchange_s) {
 
 }  // namespace
 
-LockStep::LockStep(sim::Experiment& experiment, const firmware::app::Parameters& parameters,
-                   Wires& wires)
+LockStep::LockStep(sim::Experiment& experiment, const FirmwareFactory& firmware, Wires& wires)
     : experiment_(experiment),
       wires_(wires),
       master_{&wires.attach(0, "sync"), &wires.attach(1, "sync")},
-      firmware_({&wires.attach(0, "foot"), &wires.attach(1, "foot")}, clock_, board_, parameters),
+      firmware_(firmware(wires, clock_)),
       supervisor_(wires.attach(0, "supervisor")),
       exchange_ns_(whole_exchange_ns(experiment.plant().settings().exchange_s)) {
   drives_.reserve(sim::kJointCount);  // nodes keep references, they must not move
@@ -56,7 +55,7 @@ void LockStep::send_sync() {
 
 void LockStep::poll_nodes() {
   for (DriveNode& drive : drives_) drive.poll();
-  firmware_.poll();
+  firmware_->poll(clock_.now_ns());
   supervisor_.poll(clock_.now_ns());
 }
 

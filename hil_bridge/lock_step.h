@@ -7,10 +7,9 @@
 #include <memory>
 #include <vector>
 
-#include "firmware/app/control_loop.h"
-#include "hal/in_process/soft_board.h"
 #include "hal/stepped_clock.h"
 #include "hil_bridge/drive_node.h"
+#include "hil_bridge/firmware_node.h"
 #include "hil_bridge/supervisor.h"
 #include "hil_bridge/wires.h"
 #include "sim/experiments/experiment.h"
@@ -29,14 +28,14 @@ class LockStep {
   static constexpr std::int64_t kTick_ns = 1'000'000;
 
   /// @throws std::invalid_argument where the plant's exchange interval does not divide a tick
-  LockStep(sim::Experiment& experiment, const firmware::app::Parameters& parameters, Wires& wires);
+  LockStep(sim::Experiment& experiment, const FirmwareFactory& firmware, Wires& wires);
 
   /// One control period. @throws std::runtime_error when the plant diverges
   void tick();
 
   Supervisor& supervisor() { return supervisor_; }
   const Supervisor& supervisor() const { return supervisor_; }
-  const firmware::app::ControlLoop& firmware() const { return firmware_; }
+  const FirmwareNode& firmware() const { return *firmware_; }
   const TickTorques& torques() const { return torques_; }
   std::uint32_t ticks() const { return tick_; }
   std::int64_t now_ns() const { return clock_.now_ns(); }
@@ -49,9 +48,8 @@ class LockStep {
   sim::Experiment& experiment_;
   Wires& wires_;
   hal::SteppedClock clock_;
-  hal::SoftBoard board_;
   std::array<hal::CanBus*, kBusCount> master_{};
-  firmware::app::ControlLoop firmware_;
+  std::unique_ptr<FirmwareNode> firmware_;
   Supervisor supervisor_;
   std::vector<DriveNode> drives_;
   std::int64_t exchange_ns_;

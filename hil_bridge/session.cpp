@@ -12,13 +12,13 @@ using firmware::protocol::Order;
 
 class Session {
  public:
-  Session(sim::Experiment& experiment, const firmware::app::Parameters& parameters, Wires& wires,
+  Session(sim::Experiment& experiment, const FirmwareFactory& firmware, Wires& wires,
           const SessionSettings& settings, const TickObserver& observer)
       : experiment_(experiment),
         wires_(wires),
         settings_(settings),
         observer_(observer),
-        lock_step_(experiment, parameters, wires) {}
+        lock_step_(experiment, firmware, wires) {}
 
   SessionResult run() {
     result_.toe_command_rad = settings_.toe_rad;
@@ -95,7 +95,8 @@ class Session {
     if (settings_.firmware_leg) {
       lock_step_.supervisor().order(Order::kRun, settings_.toe_rad, settings_.frequency_Hz);
       // The leg goes to the start of its path first, by itself; the test waits for the gait.
-      while (lock_step_.firmware().mode() != firmware::control::Mode::kRunning) {
+      // It is told so by heartbeat, as an operator would be.
+      while (lock_step_.supervisor().mode() != Mode::kRunning) {
         if (!tick()) return false;
         if (experiment_.time_s() > 2 * settings_.prepare_limit_s) throw_not_ready();
       }
@@ -134,10 +135,9 @@ class Session {
 
 }  // namespace
 
-SessionResult run_session(sim::Experiment& experiment, const firmware::app::Parameters& parameters,
-                          Wires& wires, const SessionSettings& settings,
-                          const TickObserver& observer) {
-  return Session(experiment, parameters, wires, settings, observer).run();
+SessionResult run_session(sim::Experiment& experiment, const FirmwareFactory& firmware, Wires& wires,
+                          const SessionSettings& settings, const TickObserver& observer) {
+  return Session(experiment, firmware, wires, settings, observer).run();
 }
 
 }  // namespace hoof::bridge

@@ -29,7 +29,7 @@ struct Bench {
   explicit Bench(const std::string& kind, const std::vector<std::string>& set = {})
       : run(test::rigid_run(kind, set)),
         experiment(test::rigid_bench(run)),
-        lock_step(*experiment, run.parameters, *wires) {}
+        lock_step(*experiment, bridge::firmware_in_process(run.parameters), *wires) {}
 
   std::vector<SeenFrame> frames_of(std::uint32_t id) const {
     std::vector<SeenFrame> found;

@@ -57,7 +57,7 @@ struct Bench {
   SessionResult go() { return go_on(*wires); }
 
   SessionResult go_on(Wires& any_wires) {
-    return bridge::run_session(*experiment, run.parameters, any_wires, settings,
+    return bridge::run_session(*experiment, bridge::firmware_in_process(run.parameters), any_wires, settings,
                                [this](const TickRecord& record) {
                                  ++seen.ticks;
                                  seen.modes.insert(record.firmware.mode);

@@ -34,6 +34,7 @@ constexpr std::string_view kBedKey = "use.bed";
 constexpr std::string_view kTerrainKey = "experiment.terrain";
 constexpr std::string_view kDriveKey = "experiment.drive";
 constexpr std::string_view kBusKey = "experiment.bus";
+constexpr std::string_view kFirmwareKey = "experiment.firmware";
 constexpr std::string_view kSeedKey = "experiment.seed";
 constexpr std::string_view kThreadsKey = "experiment.threads";
 
@@ -148,6 +149,7 @@ std::string examples(Experiment experiment) {
            "  hoof sinkage\n"
            "  hoof sinkage --foot traditional --load 40 --speed 0.1 --bed bench --seed 3\n"
            "  hoof sinkage --foot bionic --toe 30 --load 400N --out runs/toe-30 --force\n"
+           "  hoof sinkage --terrain rigid --firmware emulated\n"
            "  hoof sinkage --resume runs/toe-30.resume";
   }
   return "Examples:\n"
@@ -234,6 +236,11 @@ void add_experiment_options(CLI::App& command, ExperimentOptions& options, Exper
       ->check(one_of({"dem", "rigid"}));
   command.add_option("--bus", options.bus, "CAN interface, e.g. vcan0 [in process]")
       ->type_name("IFACE");
+  command
+      .add_option("--firmware", options.firmware,
+                  "The loop in this process, or the board's image in an emulator")
+      ->type_name("host|emulated")
+      ->check(one_of({"host", "emulated"}));
   add_run_options(command, options.run);
   add_resume_options(command, options);
   command.footer(examples(experiment));
@@ -266,6 +273,7 @@ std::vector<std::string> settings_overrides(const ExperimentOptions& options) {
   add_text(kTerrainKey, options.terrain);
   add_text(kDriveKey, options.drive);
   add_text(kBusKey, options.bus);
+  add_text(kFirmwareKey, options.firmware);
   if (options.run.seed) add(kSeedKey, std::to_string(*options.run.seed));
   if (options.run.threads) add(kThreadsKey, std::to_string(*options.run.threads));
   overrides.insert(overrides.end(), options.run.settings.begin(), options.run.settings.end());

@@ -27,6 +27,7 @@ struct ExperimentOptions {
   std::string terrain;           ///< dem or rigid
   std::string drive;             ///< firmware or prescribed
   std::string bus;               ///< CAN interface such as vcan0; not given: the in-process bus
+  std::string firmware;          ///< host or emulated
   std::filesystem::path resume;  ///< folder of an unfinished run; its settings hold, not these
   double checkpoint_every_min = RunOutput().checkpoint_every_s / 60;
 };

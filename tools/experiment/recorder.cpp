@@ -38,7 +38,7 @@ Recorder::Recorder(const RunSettings& run, const std::filesystem::path& folder, 
   start.experiment = run.kind;
   start.foot = run.foot_name;
   start.code_version = std::string(build_version().code);
-  start.firmware_hash = sha256_hex_of_file("/proc/self/exe");
+  start.firmware_hash = sha256_hex_of_file(run.image.empty() ? "/proc/self/exe" : run.image);
   telemetry_.write(start);
 }
 

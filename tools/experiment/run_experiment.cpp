@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "hil_bridge/session.h"
+#include "tools/emulator/emulated_firmware.h"
 #include "tools/experiment/bench.h"
 #include "tools/experiment/recorder.h"
 #include "tools/experiment/resume_folder.h"
@@ -59,7 +60,10 @@ Places new_places(const RunSettings& run, const RunOutput& output) {
     places.resume = ResumeFolder::begin(path, run.kind, run.tree.to_toml(), output.force);
     if (places.resume) {
       // Without grains a run is done sooner than resumed.
-      if (!run.on_grains || output.checkpoint_every_s == 0) places.resume.reset();
+      // And an image may be another one by then.
+      if (!run.on_grains || output.checkpoint_every_s == 0 || !run.image.empty()) {
+        places.resume.reset();
+      }
       return places;
     }
     if (!output.out.empty()) {
@@ -166,6 +170,16 @@ class Run {
     }
   }
 
+  bridge::FirmwareFactory firmware() const {
+    if (run_.image.empty()) return bridge::firmware_in_process(run_.parameters);
+    try {
+      return emulator::emulated_firmware(run_.image, run_.parameters);
+    } catch (const std::runtime_error& error) {
+      throw UserError(std::string("--firmware emulated: ") + error.what() +
+                      "; tools/hoof firmware build makes the image");
+    }
+  }
+
   bridge::SessionResult drive() {
     progress_.emplace(run_.kind, style_, std::cerr);
     const auto log = [this](int bus, const hal::CanFrame& frame) { recorder_->frame(bus, frame); };
@@ -181,7 +195,7 @@ class Run {
     };
     try {
       const bridge::SessionResult result = bridge::run_session(
-          *experiment_, run_.parameters, *wires, session_settings(run_), observe);
+          *experiment_, firmware(), *wires, session_settings(run_), observe);
       progress_->finish();
       return result;
     } catch (const UserError&) {

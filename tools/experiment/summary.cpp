@@ -65,9 +65,14 @@ Json ground(const RunSettings& run, const sim::Experiment& experiment) {
   return j;
 }
 
-Json firmware_identity() {
+Json firmware_identity(const RunSettings& run) {
   char hash[11];
   std::snprintf(hash, sizeof hash, "0x%08x", firmware::protocol::kProtocolHash);
+  if (!run.image.empty()) {
+    return {{"runs_on", "emulated STM32F405"},
+            {"sha256", sha256_hex_of_file(run.image)},
+            {"protocol_hash", hash}};
+  }
   // The host firmware is part of this program, so the program's bytes are the firmware's.
   return {{"runs_on", "host"},
           {"sha256", sha256_hex_of_file("/proc/self/exe")},
@@ -135,7 +140,7 @@ Json summarise(const RunSettings& run, const sim::Experiment& experiment,
   j["exchange_error_J"] = energy.error_J();
   j["ground"] = ground(run, experiment);
   if (run.on_grains) j["resolution"] = resolution(run, depth);
-  j["firmware"] = firmware_identity();
+  j["firmware"] = firmware_identity(run);
   j["version"] = version_json();
   return j;
 }
