@@ -1,4 +1,5 @@
-// What a firmware tells of itself on the buses, put together as if it had been asked in its process.
+// What a firmware tells of itself on the buses, put together as if it had been asked in its
+// process.
 #pragma once
 
 #include <cstdint>

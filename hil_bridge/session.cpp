@@ -135,8 +135,9 @@ class Session {
 
 }  // namespace
 
-SessionResult run_session(sim::Experiment& experiment, const FirmwareFactory& firmware, Wires& wires,
-                          const SessionSettings& settings, const TickObserver& observer) {
+SessionResult run_session(sim::Experiment& experiment, const FirmwareFactory& firmware,
+                          Wires& wires, const SessionSettings& settings,
+                          const TickObserver& observer) {
   return Session(experiment, firmware, wires, settings, observer).run();
 }
 

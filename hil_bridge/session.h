@@ -47,7 +47,8 @@ using TickObserver = std::function<bool(const TickRecord&)>;
 /// Runs the experiment to its end: home, open the toes, go on, stop.
 /// @throws std::runtime_error when the firmware refuses or faults, the foot does not become ready
 /// in time, or the plant diverges: what, when and the mode
-SessionResult run_session(sim::Experiment& experiment, const FirmwareFactory& firmware, Wires& wires,
-                          const SessionSettings& settings, const TickObserver& observer);
+SessionResult run_session(sim::Experiment& experiment, const FirmwareFactory& firmware,
+                          Wires& wires, const SessionSettings& settings,
+                          const TickObserver& observer);
 
 }  // namespace hoof::bridge

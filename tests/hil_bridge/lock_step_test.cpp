@@ -98,7 +98,7 @@ TEST_CASE("the firmware runs once per SYNC and knows the plant by its frames alo
   CHECK(bench.lock_step.firmware().telemetry().counters.missed_ticks == 0);
   CHECK(bench.lock_step.firmware().telemetry().counters.bad_frames() == 0);
   CHECK(bench.lock_step.supervisor().accepted());
-  CHECK(bench.lock_step.firmware().mode() == firmware::control::Mode::kHoming);
+  CHECK(bench.lock_step.firmware().telemetry().mode == firmware::control::Mode::kHoming);
   REQUIRE(bench.lock_step.supervisor().heartbeat());
   CHECK(bench.lock_step.supervisor().heartbeat()->mode == protocol::Mode::kHoming);
 }

@@ -26,8 +26,7 @@ hal::RamFlash blank_flash(std::uint32_t seed) {
 }
 
 Board::Board(ElfFile image, hal::RamFlash& flash)
-    : image_(std::move(image)),
-      flash_(flash, time_, [this](Cycles cycles) { spend(cycles); }) {
+    : image_(std::move(image)), flash_(flash, time_, [this](Cycles cycles) { spend(cycles); }) {
   const auto apb1 = [this] { return rcc_.apb1_MHz(); };
   can_[0] = std::make_unique<BxCan>(1, time_, nvic_, filters_, 19, apb1);
   can_[1] = std::make_unique<BxCan>(2, time_, nvic_, filters_, 63, apb1);
@@ -59,7 +58,9 @@ void Board::connect(std::size_t bus, std::unique_ptr<CanWire> wire) {
 }
 
 /// The button's loop feeds 3.3 V to the pin; pressed, it is open.
-void Board::press_emergency_stop(bool pressed) { port_b_.wire_high(kButtonPin, !pressed); }
+void Board::press_emergency_stop(bool pressed) {
+  port_b_.wire_high(kButtonPin, !pressed);
+}
 
 void Board::power_on() {
   std::mt19937 random(1);
@@ -179,15 +180,22 @@ Peripheral& Board::peripheral_at(std::uint32_t address, std::uint32_t& offset) {
   }
   offset = address & 0x3FF;
   switch (address & ~0x3FFu) {
-    case 0x4000'3000: return iwdg_;
-    case 0x4000'6400: return with_clock(*can_[0], rcc_.apb1_on(kCan1Clock));
+    case 0x4000'3000:
+      return iwdg_;
+    case 0x4000'6400:
+      return with_clock(*can_[0], rcc_.apb1_on(kCan1Clock));
     case 0x4000'6800:
       return with_clock(*can_[1], rcc_.apb1_on(kCan2Clock) && rcc_.apb1_on(kCan1Clock));
-    case 0x4000'7000: return with_clock(pwr_, rcc_.apb1_on(kPowerClock));
-    case 0x4002'0400: return with_clock(port_b_, rcc_.ahb1_on(kPortBClock));
-    case 0x4002'3800: return rcc_;
-    case 0x4002'3C00: return flash_;
-    default: throw EmulatorError("no model of a register at " + hex(address));
+    case 0x4000'7000:
+      return with_clock(pwr_, rcc_.apb1_on(kPowerClock));
+    case 0x4002'0400:
+      return with_clock(port_b_, rcc_.ahb1_on(kPortBClock));
+    case 0x4002'3800:
+      return rcc_;
+    case 0x4002'3C00:
+      return flash_;
+    default:
+      throw EmulatorError("no model of a register at " + hex(address));
   }
 }
 
@@ -196,13 +204,17 @@ std::uint32_t Board::read(std::uint32_t address, unsigned bytes) {
     const std::uint32_t word = flash_.read_word((address - kData) & ~3u);
     return word >> (8 * (address & 3)) & (bytes == 4 ? ~0u : (1u << (8 * bytes)) - 1);
   }
-  if (bytes != 4) throw EmulatorError("register " + hex(address) + " is read by " + std::to_string(bytes) + " bytes");
+  if (bytes != 4)
+    throw EmulatorError("register " + hex(address) + " is read by " + std::to_string(bytes) +
+                        " bytes");
   std::uint32_t offset = 0;
   return peripheral_at(address, offset).read(offset);
 }
 
 void Board::write(std::uint32_t address, unsigned bytes, std::uint32_t value) {
-  if (bytes != 4) throw EmulatorError("register " + hex(address) + " is written by " + std::to_string(bytes) + " bytes");
+  if (bytes != 4)
+    throw EmulatorError("register " + hex(address) + " is written by " + std::to_string(bytes) +
+                        " bytes");
   if (address >= kData && address < kAfterData) return flash_.program_word(address - kData, value);
   std::uint32_t offset = 0;
   peripheral_at(address, offset).write(offset, value);

@@ -24,9 +24,9 @@ namespace hoof::tools::emulator {
 /// The data sectors of a part fresh from the factory.
 hal::RamFlash blank_flash(std::uint32_t seed = 1);
 
-/// Runs the image as it is. The core is taken to be infinitely fast: time stands still while it runs
-/// and passes while it sleeps, or waits for the flash. So its answers have the simulator's time, as
-/// the loop's in one process have.
+/// Runs the image as it is. The core is taken to be infinitely fast: time stands still while it
+/// runs and passes while it sleeps, or waits for the flash. So its answers have the simulator's
+/// time, as the loop's in one process have.
 class Board final : private RegisterSpace {
  public:
   static constexpr std::size_t kBuses = 2;

@@ -176,8 +176,9 @@ void BxCan::watch_errors() {
 }
 
 void BxCan::update_lines() {
-  const bool completed = std::any_of(mailboxes_.begin(), mailboxes_.end(),
-                                     [](const Transmit& m) { return (m.result & kCompleted) != 0; });
+  const bool completed = std::any_of(mailboxes_.begin(), mailboxes_.end(), [](const Transmit& m) {
+    return (m.result & kCompleted) != 0;
+  });
   nvic_.set_line(first_interrupt_, completed && (interrupts_ & kEmptyInterrupt) != 0);
   for (std::size_t i = 0; i < 2; ++i) {
     const std::uint32_t enabled = interrupts_ >> (1 + 3 * i);

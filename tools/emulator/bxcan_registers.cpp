@@ -6,9 +6,19 @@
 namespace hoof::tools::emulator {
 namespace {
 
-enum Offset { kMaster = 0x00, kMasterStatus = 0x04, kTransmitStatus = 0x08, kFifo0 = 0x0C,
-              kFifo1 = 0x10, kInterrupts = 0x14, kErrors = 0x18, kTiming = 0x1C,
-              kMailbox = 0x180, kFifoOutput = 0x1B0, kFilters = 0x200 };
+enum Offset {
+  kMaster = 0x00,
+  kMasterStatus = 0x04,
+  kTransmitStatus = 0x08,
+  kFifo0 = 0x0C,
+  kFifo1 = 0x10,
+  kInterrupts = 0x14,
+  kErrors = 0x18,
+  kTiming = 0x1C,
+  kMailbox = 0x180,
+  kFifoOutput = 0x1B0,
+  kFilters = 0x200
+};
 
 // MCR
 constexpr std::uint32_t kInitialise = 1u << 0, kSleep = 1u << 1, kKnownControl = 0x0001'00FF;
@@ -71,10 +81,14 @@ std::uint32_t BxCan::error_status() const {
 std::uint32_t BxCan::read_mailbox(std::uint32_t offset) const {
   const auto pick = [offset](const auto& m) {
     switch (offset % 16 / 4) {
-      case 0: return m.identifier;
-      case 1: return m.length;
-      case 2: return m.low;
-      default: return m.high;
+      case 0:
+        return m.identifier;
+      case 1:
+        return m.length;
+      case 2:
+        return m.low;
+      default:
+        return m.high;
     }
   };
   if (offset < kFifoOutput) return pick(mailboxes_[(offset - kMailbox) / 16]);
@@ -85,15 +99,24 @@ std::uint32_t BxCan::read_mailbox(std::uint32_t offset) const {
 std::uint32_t BxCan::read(std::uint32_t offset) {
   leave_initialisation_if_due();
   switch (offset) {
-    case kMaster: return control_;
-    case kMasterStatus: return master_status();
-    case kTransmitStatus: return transmit_status();
-    case kFifo0: return fifo_status(0);
-    case kFifo1: return fifo_status(1);
-    case kInterrupts: return interrupts_;
-    case kErrors: return error_status();
-    case kTiming: return timing_;
-    default: break;
+    case kMaster:
+      return control_;
+    case kMasterStatus:
+      return master_status();
+    case kTransmitStatus:
+      return transmit_status();
+    case kFifo0:
+      return fifo_status(0);
+    case kFifo1:
+      return fifo_status(1);
+    case kInterrupts:
+      return interrupts_;
+    case kErrors:
+      return error_status();
+    case kTiming:
+      return timing_;
+    default:
+      break;
   }
   if (offset >= kMailbox && offset < kFifoOutput + 32) return read_mailbox(offset);
   std::uint32_t value = 0;
@@ -102,7 +125,8 @@ std::uint32_t BxCan::read(std::uint32_t offset) {
 }
 
 void BxCan::write_master(std::uint32_t value) {
-  if ((value & ~kKnownControl) != 0) throw EmulatorError("bxCAN: MCR " + hex(value) + " has no model");
+  if ((value & ~kKnownControl) != 0)
+    throw EmulatorError("bxCAN: MCR " + hex(value) + " has no model");
   const bool joins = (control_ & kInitialise) != 0 && (value & kInitialise) == 0;
   control_ = value;
   sleeping_ = (value & kSleep) != 0 && (value & kInitialise) == 0;
@@ -138,10 +162,18 @@ void BxCan::write_mailbox(std::uint32_t offset, std::uint32_t value) {
   Transmit& m = mailboxes_[(offset - kMailbox) / 16];
   if (m.pending) throw EmulatorError("bxCAN: a mailbox is written before its frame has left");
   switch (offset % 16 / 4) {
-    case 0: m.identifier = value; break;
-    case 1: m.length = value; break;
-    case 2: m.low = value; break;
-    default: m.high = value; break;
+    case 0:
+      m.identifier = value;
+      break;
+    case 1:
+      m.length = value;
+      break;
+    case 2:
+      m.low = value;
+      break;
+    default:
+      m.high = value;
+      break;
   }
   if (offset % 16 != 0 || (value & kRequest) == 0) return;
   m.pending = true;
@@ -151,18 +183,28 @@ void BxCan::write_mailbox(std::uint32_t offset, std::uint32_t value) {
 
 void BxCan::write(std::uint32_t offset, std::uint32_t value) {
   switch (offset) {
-    case kMaster: write_master(value); break;
+    case kMaster:
+      write_master(value);
+      break;
     case kMasterStatus:
       if ((value & kErrorFlag) != 0) error_flag_ = false;
       break;
-    case kTransmitStatus: write_transmit_status(value); break;
-    case kFifo0: write_fifo_status(0, value); break;
-    case kFifo1: write_fifo_status(1, value); break;
+    case kTransmitStatus:
+      write_transmit_status(value);
+      break;
+    case kFifo0:
+      write_fifo_status(0, value);
+      break;
+    case kFifo1:
+      write_fifo_status(1, value);
+      break;
     case kInterrupts:
       if ((value & ~kKnownInterrupts) != 0) throw EmulatorError("bxCAN: IER " + hex(value));
       interrupts_ = value;
       break;
-    case kErrors: last_error_ = value >> 4 & 7; break;
+    case kErrors:
+      last_error_ = value >> 4 & 7;
+      break;
     case kTiming:
       if (!initialising_) throw EmulatorError("bxCAN: BTR written outside initialisation");
       timing_ = value;

@@ -3,8 +3,14 @@
 namespace hoof::tools::emulator {
 namespace {
 
-enum Offset { kMaster = 0x200, kMode = 0x204, kScale = 0x20C, kAssignment = 0x214,
-              kActivation = 0x21C, kFirstBank = 0x240 };
+enum Offset {
+  kMaster = 0x200,
+  kMode = 0x204,
+  kScale = 0x20C,
+  kAssignment = 0x214,
+  kActivation = 0x21C,
+  kFirstBank = 0x240
+};
 constexpr std::uint32_t kEnd = kFirstBank + 8 * CanFilters::kBanks;
 constexpr std::uint32_t kAllBanks = (1u << CanFilters::kBanks) - 1;
 
@@ -23,12 +29,23 @@ void CanFilters::reset() {
 
 bool CanFilters::read(std::uint32_t offset, std::uint32_t& value) const {
   switch (offset) {
-    case kMaster: value = master_; return true;
-    case kMode: value = list_mode_; return true;
-    case kScale: value = wide_; return true;
-    case kAssignment: value = fifo_; return true;
-    case kActivation: value = active_; return true;
-    default: break;
+    case kMaster:
+      value = master_;
+      return true;
+    case kMode:
+      value = list_mode_;
+      return true;
+    case kScale:
+      value = wide_;
+      return true;
+    case kAssignment:
+      value = fifo_;
+      return true;
+    case kActivation:
+      value = active_;
+      return true;
+    default:
+      break;
   }
   if (offset < kFirstBank || offset >= kEnd) return false;
   value = banks_[(offset - kFirstBank) / 8][(offset - kFirstBank) / 4 % 2];
@@ -37,22 +54,32 @@ bool CanFilters::read(std::uint32_t offset, std::uint32_t& value) const {
 
 bool CanFilters::write(std::uint32_t offset, std::uint32_t value) {
   const auto set_while_changing = [&](std::uint32_t& target, const char* name) {
-    if (!changing()) throw EmulatorError(std::string("CAN1: ") + name + " written while filters run");
+    if (!changing())
+      throw EmulatorError(std::string("CAN1: ") + name + " written while filters run");
     target = value & kAllBanks;
     return true;
   };
   switch (offset) {
-    case kMaster: master_ = (master_ & ~0x3F01u) | (value & 0x3F01u); return true;
-    case kMode: return set_while_changing(list_mode_, "FM1R");
-    case kScale: return set_while_changing(wide_, "FS1R");
-    case kAssignment: return set_while_changing(fifo_, "FFA1R");
-    case kActivation: active_ = value & kAllBanks; return true;
-    default: break;
+    case kMaster:
+      master_ = (master_ & ~0x3F01u) | (value & 0x3F01u);
+      return true;
+    case kMode:
+      return set_while_changing(list_mode_, "FM1R");
+    case kScale:
+      return set_while_changing(wide_, "FS1R");
+    case kAssignment:
+      return set_while_changing(fifo_, "FFA1R");
+    case kActivation:
+      active_ = value & kAllBanks;
+      return true;
+    default:
+      break;
   }
   if (offset < kFirstBank || offset >= kEnd) return false;
   const std::size_t bank = (offset - kFirstBank) / 8;
   if (!changing() && bit(active_, bank)) {
-    throw EmulatorError("CAN1: filter bank " + std::to_string(bank) + " written while it is active");
+    throw EmulatorError("CAN1: filter bank " + std::to_string(bank) +
+                        " written while it is active");
   }
   banks_[bank][(offset - kFirstBank) / 4 % 2] = value;
   return true;

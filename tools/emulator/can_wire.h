@@ -27,8 +27,9 @@ class CanWire {
 /// Someone listens and acknowledges, and nobody else sends: where a board is alone at its start.
 std::unique_ptr<CanWire> silent_wire();
 
-/// A connection to a bus of ours; in process it tells which frames have left, and can come back from
-/// bus-off. Of other buses the number sent is known: they are taken to leave in the order offered.
+/// A connection to a bus of ours; in process it tells which frames have left, and can come back
+/// from bus-off. Of other buses the number sent is known: they are taken to leave in the order
+/// offered.
 std::unique_ptr<CanWire> wire_of(hal::CanBus& bus);
 
 }  // namespace hoof::tools::emulator

@@ -59,8 +59,9 @@ Core::Stop Core::run() {
   }
 }
 
-/// Pushes what the handler may change; with floating-point state also s0 to s15 and FPSCR. (The part
-/// leaves their place free and fills it when the handler first uses the FPU: same contents after.)
+/// Pushes what the handler may change; with floating-point state also s0 to s15 and FPSCR. (The
+/// part leaves their place free and fills it when the handler first uses the FPU: same contents
+/// after.)
 bool Core::push_frame(CoreRegisters& r) {
   if ((r.control & kProcessStack) != 0) throw EmulatorError("the process stack has no model");
   const bool fp = (r.control & kFpActive) != 0;

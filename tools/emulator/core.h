@@ -18,7 +18,7 @@ class Core {
     kStuck,     // never sleeps
   };
   struct Counts {
-    std::uint64_t exceptions = 0;   // entered
+    std::uint64_t exceptions = 0;    // entered
     std::uint64_t tail_chained = 0;  // of these, without unstacking between
   };
 

@@ -11,7 +11,8 @@
 namespace hoof::tools::emulator {
 namespace {
 
-constexpr std::uint32_t kExceptionExit = 8;  // QEMU's EXCP_EXCEPTION_EXIT, as Unicorn tells it
+// QEMU's EXCP_PREFETCH_ABORT and EXCP_EXCEPTION_EXIT, as Unicorn tells them
+constexpr std::uint32_t kPrefetchAbort = 3, kExceptionExit = 8;
 
 void require(uc_err error, const char* what) {
   if (error == UC_ERR_OK) return;
@@ -122,8 +123,7 @@ Cpu::Cpu(std::function<bool()> interrupt_waits) : machine_(std::make_unique<Mach
 Cpu::~Cpu() = default;
 
 void Cpu::map_memory(std::uint32_t base, std::uint32_t bytes, Access access) {
-  const std::uint32_t rights =
-      access == Access::kAll ? UC_PROT_ALL : UC_PROT_READ | UC_PROT_EXEC;
+  const std::uint32_t rights = access == Access::kAll ? UC_PROT_ALL : UC_PROT_READ | UC_PROT_EXEC;
   require(uc_mem_map(machine_->engine, base, bytes, rights), "map memory");
 }
 
@@ -135,8 +135,8 @@ void Cpu::map_registers(std::uint32_t base, std::uint32_t bytes, RegisterSpace& 
           "map registers");
 }
 
-/// CPSIE i and f, and MSR of PRIMASK, FAULTMASK, BASEPRI and CONTROL; data that look like one cost a
-/// stop and nothing else.
+/// CPSIE i and f, and MSR of PRIMASK, FAULTMASK, BASEPRI and CONTROL; data that look like one cost
+/// a stop and nothing else.
 void Cpu::watch_unmasking(std::uint32_t run_address, std::span<const std::uint8_t> code) {
   const auto half = [&](std::size_t i) { return std::uint32_t(code[i] | code[i + 1] << 8); };
   for (std::size_t i = 0; i + 4 <= code.size(); i += 2) {
@@ -149,7 +149,9 @@ void Cpu::watch_unmasking(std::uint32_t run_address, std::span<const std::uint8_
 }
 
 bool Cpu::write_memory(std::uint32_t address, const void* bytes, std::size_t size) {
-  return uc_mem_write(machine_->engine, address, bytes, size) == UC_ERR_OK;
+  if (uc_mem_write(machine_->engine, address, bytes, size) != UC_ERR_OK) return false;
+  if (address < 0x1000'0000) uc_ctl_remove_cache(machine_->engine, address, address + size);
+  return true;
 }
 
 bool Cpu::read_memory(std::uint32_t address, void* bytes, std::size_t size) {
@@ -158,8 +160,8 @@ bool Cpu::read_memory(std::uint32_t address, void* bytes, std::size_t size) {
 
 namespace {
 
-constexpr int kIds[] = {UC_ARM_REG_R0, UC_ARM_REG_R1, UC_ARM_REG_R2,  UC_ARM_REG_R3,
-                        UC_ARM_REG_R12, UC_ARM_REG_SP, UC_ARM_REG_LR, UC_ARM_REG_PC,
+constexpr int kIds[] = {UC_ARM_REG_R0,   UC_ARM_REG_R1,     UC_ARM_REG_R2, UC_ARM_REG_R3,
+                        UC_ARM_REG_R12,  UC_ARM_REG_SP,     UC_ARM_REG_LR, UC_ARM_REG_PC,
                         UC_ARM_REG_XPSR, UC_ARM_REG_CONTROL};
 constexpr int kCount = int(std::size(kIds));
 
@@ -230,6 +232,10 @@ Cpu::Stop Cpu::run() {
   if (m.requested) return Stop::kRequested;
   if (m.stuck) return Stop::kStuck;
   if (m.interrupt == kExceptionExit) return Stop::kExceptionReturn;
+  if (m.interrupt == kPrefetchAbort) {
+    m.fault = {fault_status::kInstructionBus, pc};
+    return Stop::kFault;
+  }
   if (m.interrupt != 0) {
     throw EmulatorError("no model of QEMU's exception " + std::to_string(m.interrupt));
   }
@@ -255,14 +261,18 @@ Cpu::Stop Cpu::run() {
   }
 }
 
-const Cpu::Fault& Cpu::fault() const { return machine_->fault; }
+const Cpu::Fault& Cpu::fault() const {
+  return machine_->fault;
+}
 
 void Cpu::request_stop() {
   machine_->requested = true;
   machine_->stop();
 }
 
-std::uint64_t Cpu::blocks() const { return machine_->blocks; }
+std::uint64_t Cpu::blocks() const {
+  return machine_->blocks;
+}
 
 void Cpu::observe(Observer observer) {
   Machine& m = *machine_;

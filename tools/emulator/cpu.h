@@ -55,7 +55,8 @@ class Cpu {
 
   void map_memory(std::uint32_t base, std::uint32_t bytes, Access access);
   void map_registers(std::uint32_t base, std::uint32_t bytes, RegisterSpace& space);
-  /// While an interrupt waits, stops at instructions that follow one which may unmask interrupts, wherever they are in `code`.
+  /// While an interrupt waits, stops at instructions that follow one which may unmask interrupts,
+  /// wherever they are in `code`.
   void watch_unmasking(std::uint32_t run_address, std::span<const std::uint8_t> code);
 
   /// Also into memory that the image cannot write. @return false where there is none

@@ -22,8 +22,7 @@ hal::RamFlash flash_with(const firmware::app::Parameters& parameters) {
   firmware::app::Storage storage(flash);
   firmware::app::Parameters ignored;
   storage.load(ignored);  // readies the fault log, too
-  if (storage.store(parameters, firmware::control::Mode::kOff) !=
-      firmware::app::StoreResult::kOk) {
+  if (storage.store(parameters, firmware::control::Mode::kOff) != firmware::app::StoreResult::kOk) {
     throw std::invalid_argument("the parameters cannot be stored: a value is out of its range");
   }
   return flash;
@@ -32,7 +31,8 @@ hal::RamFlash flash_with(const firmware::app::Parameters& parameters) {
 EmulatedFirmware::EmulatedFirmware(const ElfFile& image, hal::RamFlash flash, bridge::Wires& wires)
     : flash_(std::move(flash)), board_(image, flash_) {
   board_.power_on();
-  // The second heartbeat comes with the first tick a period after the first, the others a period on.
+  // The second heartbeat comes with the first tick a period after the first, the others a period
+  // on.
   const Cycles second = board_.now() + kHeartbeatPeriod;
   while (board_.next_tick() < second) board_.advance_to(board_.next_tick());
   start_ = board_.next_tick() + (kHeartbeatCounts - 1) * kHeartbeatPeriod;

@@ -17,8 +17,8 @@ hal::RamFlash flash_with(const firmware::app::Parameters& parameters);
 
 class EmulatedFirmware final : public bridge::FirmwareNode {
  public:
-  /// Powers the board on and lets it run alone for 1.6 s, until its 17th heartbeat is due, which is the
-  /// first once more: that is time 0 of the run, as it is for a loop that starts in process.
+  /// Powers the board on and lets it run alone for 1.6 s, until its 17th heartbeat is due, which is
+  /// the first once more: that is time 0 of the run, as it is for a loop that starts in process.
   EmulatedFirmware(const ElfFile& image, hal::RamFlash flash, bridge::Wires& wires);
 
   void poll(std::int64_t now_ns) override;

@@ -41,23 +41,33 @@ void FlashController::write_key(std::uint32_t key) {
 
 std::uint32_t FlashController::read(std::uint32_t offset) {
   switch (offset) {
-    case kAccess: return access_;
+    case kAccess:
+      return access_;
     case kStatus:
       if (!busy()) return status_;
       spend_(std::min(kLook, ready_ - time_.now));
       return status_ | kBusy;
-    case kControl: return control_ & ~kStart;
-    default: no_such_register(offset);
+    case kControl:
+      return control_ & ~kStart;
+    default:
+      no_such_register(offset);
   }
 }
 
 void FlashController::write(std::uint32_t offset, std::uint32_t value) {
   switch (offset) {
-    case kAccess: access_ = value; return;
-    case kKey: return write_key(value);
-    case kStatus: status_ &= ~(value & (kErrors | kEndOfOperation)); return;
-    case kControl: return write_control(value);
-    default: no_such_register(offset);
+    case kAccess:
+      access_ = value;
+      return;
+    case kKey:
+      return write_key(value);
+    case kStatus:
+      status_ &= ~(value & (kErrors | kEndOfOperation));
+      return;
+    case kControl:
+      return write_control(value);
+    default:
+      no_such_register(offset);
   }
 }
 

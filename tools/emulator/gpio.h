@@ -48,8 +48,15 @@ class Gpio final : public Peripheral {
   }
 
  private:
-  enum Offset { kModes = 0x00, kSpeeds = 0x08, kPulls = 0x0C, kInputData = 0x10, kOutputData = 0x14,
-                kSetReset = 0x18, kAlternates = 0x20 };
+  enum Offset {
+    kModes = 0x00,
+    kSpeeds = 0x08,
+    kPulls = 0x0C,
+    kInputData = 0x10,
+    kOutputData = 0x14,
+    kSetReset = 0x18,
+    kAlternates = 0x20
+  };
 
   /// A pin that nothing drives reads as it is pulled; without a pull, low.
   std::uint32_t levels() const {

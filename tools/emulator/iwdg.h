@@ -1,7 +1,7 @@
 // Independent watchdog: once started, only a reset of the part stops it.
 //
-// Source: RM0090 rev. 19, 21.3 and 21.4. Its oscillator has 17 to 47 kHz (DS8626); here 32 kHz unless
-// set otherwise.
+// Source: RM0090 rev. 19, 21.3 and 21.4. Its oscillator has 17 to 47 kHz (DS8626); here 32 kHz
+// unless set otherwise.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,7 @@ class Iwdg final : public Peripheral {
   std::uint32_t oscillator_Hz_ = 32'000;
   bool running_ = false;
   bool unlocked_ = false;
-  std::uint32_t prescaler_ = 0, reload_ = 0xFFF;          // as written
+  std::uint32_t prescaler_ = 0, reload_ = 0xFFF;            // as written
   std::uint32_t prescaler_used_ = 0, reload_used_ = 0xFFF;  // as taken over by the slow clock
   int updating_looks_ = 0;
   Cycles deadline_ = 0;

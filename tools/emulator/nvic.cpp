@@ -7,8 +7,14 @@ namespace {
 
 constexpr int kThreadPriority = 256;
 
-enum Bank { kSetEnable = 0x000, kClearEnable = 0x080, kSetPending = 0x100, kClearPending = 0x180,
-            kActive = 0x200, kPriorities = 0x300 };
+enum Bank {
+  kSetEnable = 0x000,
+  kClearEnable = 0x080,
+  kSetPending = 0x100,
+  kClearPending = 0x180,
+  kActive = 0x200,
+  kPriorities = 0x300
+};
 
 }  // namespace
 
@@ -124,7 +130,9 @@ std::uint32_t Nvic::read(std::uint32_t offset) {
     const std::uint32_t interrupt = 8 * (offset & 0x7F) + bit;
     if (interrupt >= kInterrupts) break;
     const State& s = state_[exception::kFirstInterrupt + interrupt];
-    const bool set = bank <= kClearEnable ? s.enabled : bank <= kClearPending ? s.pending : s.active;
+    const bool set = bank <= kClearEnable    ? s.enabled
+                     : bank <= kClearPending ? s.pending
+                                             : s.active;
     value |= std::uint32_t{set} << bit;
   }
   return value;

@@ -49,8 +49,8 @@ class Nvic final : public Peripheral {
   }
   void unpend(int exception) { state_[std::size_t(exception)].pending = false; }
   bool pending(int exception) const { return state_[std::size_t(exception)].pending; }
-  /// An interrupt's request line. High it stays pending until it is served; still high at the end of
-  /// its handler it is pending again.
+  /// An interrupt's request line. High it stays pending until it is served; still high at the end
+  /// of its handler it is pending again.
   void set_line(int exception, bool high);
 
   /// The exception to be taken now; 0 where there is none.

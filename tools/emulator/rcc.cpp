@@ -3,8 +3,15 @@
 namespace hoof::tools::emulator {
 namespace {
 
-enum Offset { kControl = 0x00, kPll = 0x04, kConfiguration = 0x08, kAhb1 = 0x30, kApb1 = 0x40,
-              kApb2 = 0x44, kStatus = 0x74 };
+enum Offset {
+  kControl = 0x00,
+  kPll = 0x04,
+  kConfiguration = 0x08,
+  kAhb1 = 0x30,
+  kApb1 = 0x40,
+  kApb2 = 0x44,
+  kStatus = 0x74
+};
 
 constexpr std::uint32_t kInternal = 1u << 0, kInternalReady = 1u << 1;
 constexpr std::uint32_t kCrystal = 1u << 16, kCrystalReady = 1u << 17;
@@ -90,13 +97,18 @@ std::uint32_t Rcc::pll_MHz() const {
 void Rcc::switch_clock() {
   std::uint32_t megahertz = kInternal_MHz;
   switch (configuration_ & 3) {
-    case 0: break;
-    case 1: megahertz = kCrystal_MHz; break;
+    case 0:
+      break;
+    case 1:
+      megahertz = kCrystal_MHz;
+      break;
     case 2:
-      if ((control_ & kPllReady) == 0) throw EmulatorError("RCC: switched to a PLL that is not locked");
+      if ((control_ & kPllReady) == 0)
+        throw EmulatorError("RCC: switched to a PLL that is not locked");
       megahertz = pll_MHz();
       break;
-    default: throw EmulatorError("RCC: clock source 3 is not there");
+    default:
+      throw EmulatorError("RCC: clock source 3 is not there");
   }
   if (megahertz != 168 && megahertz != 16 && megahertz != 8) {
     throw EmulatorError("RCC: no model of a core at " + std::to_string(megahertz) + " MHz");
@@ -113,20 +125,29 @@ std::uint32_t Rcc::apb1_MHz() const {
 
 std::uint32_t Rcc::read(std::uint32_t offset) {
   switch (offset) {
-    case kControl: return clock_control();
-    case kPll: return pll_;
-    case kConfiguration: return configuration_ | (configuration_ & 3) << 2;
-    case kAhb1: return ahb1_;
-    case kApb1: return apb1_;
-    case kApb2: return apb2_;
-    case kStatus: return status_;
-    default: no_such_register(offset);
+    case kControl:
+      return clock_control();
+    case kPll:
+      return pll_;
+    case kConfiguration:
+      return configuration_ | (configuration_ & 3) << 2;
+    case kAhb1:
+      return ahb1_;
+    case kApb1:
+      return apb1_;
+    case kApb2:
+      return apb2_;
+    case kStatus:
+      return status_;
+    default:
+      no_such_register(offset);
   }
 }
 
 void Rcc::write(std::uint32_t offset, std::uint32_t value) {
   switch (offset) {
-    case kControl: return write_clock_control(value);
+    case kControl:
+      return write_clock_control(value);
     case kPll:
       if ((control_ & kPllOn) != 0) throw EmulatorError("RCC: PLLCFGR written while the PLL runs");
       pll_ = value;
@@ -134,13 +155,20 @@ void Rcc::write(std::uint32_t offset, std::uint32_t value) {
     case kConfiguration:
       configuration_ = value & ~0xCu;
       return switch_clock();
-    case kAhb1: ahb1_ = value; return;
-    case kApb1: apb1_ = value; return;
-    case kApb2: apb2_ = value; return;
+    case kAhb1:
+      ahb1_ = value;
+      return;
+    case kApb1:
+      apb1_ = value;
+      return;
+    case kApb2:
+      apb2_ = value;
+      return;
     case kStatus:
       if ((value & kClearFlags) != 0) status_ = 0;
       return;
-    default: no_such_register(offset);
+    default:
+      no_such_register(offset);
   }
 }
 

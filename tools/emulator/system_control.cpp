@@ -4,10 +4,26 @@ namespace hoof::tools::emulator {
 namespace {
 
 enum Offset {
-  kCpuId = 0x00, kInterruptState = 0x04, kVectorTable = 0x08, kResetControl = 0x0C,
-  kSleep = 0x10, kConfiguration = 0x14, kPriority4 = 0x18, kPriority8 = 0x1C, kPriority12 = 0x20,
-  kHandlers = 0x24, kCfsr = 0x28, kHfsr = 0x2C, kMmfar = 0x34, kBfar = 0x38, kCoprocessors = 0x88,
-  kMpuType = 0x90, kMpuControl = 0x94, kMpuNumber = 0x98, kMpuBase = 0x9C, kMpuAttributes = 0xA0,
+  kCpuId = 0x00,
+  kInterruptState = 0x04,
+  kVectorTable = 0x08,
+  kResetControl = 0x0C,
+  kSleep = 0x10,
+  kConfiguration = 0x14,
+  kPriority4 = 0x18,
+  kPriority8 = 0x1C,
+  kPriority12 = 0x20,
+  kHandlers = 0x24,
+  kCfsr = 0x28,
+  kHfsr = 0x2C,
+  kMmfar = 0x34,
+  kBfar = 0x38,
+  kCoprocessors = 0x88,
+  kMpuType = 0x90,
+  kMpuControl = 0x94,
+  kMpuNumber = 0x98,
+  kMpuBase = 0x9C,
+  kMpuAttributes = 0xA0,
 };
 
 constexpr std::uint32_t kCortexM4 = 0x410F'C241;
@@ -32,7 +48,8 @@ void SystemControl::reset() {
 
 std::uint32_t SystemControl::interrupt_state() const {
   return std::uint32_t(nvic_.active()) | std::uint32_t(nvic_.highest_pending()) << 12 |
-         (nvic_.thread_next() ? 1u << 11 : 0) | (nvic_.pending(exception::kSysTick) ? 1u << 26 : 0) |
+         (nvic_.thread_next() ? 1u << 11 : 0) |
+         (nvic_.pending(exception::kSysTick) ? 1u << 26 : 0) |
          (nvic_.pending(exception::kPendSv) ? 1u << 28 : 0) |
          (nvic_.pending(exception::kNmi) ? 1u << 31 : 0);
 }
@@ -62,44 +79,72 @@ std::uint32_t SystemControl::read_priorities(std::uint32_t first) const {
 
 std::uint32_t SystemControl::read(std::uint32_t offset) {
   switch (offset) {
-    case kCpuId: return kCortexM4;
-    case kInterruptState: return interrupt_state();
-    case kVectorTable: return vector_table_;
-    case kResetControl: return 0xFA05'0000 | prigroup_ << 8;
-    case kSleep: return sleep_;
-    case kConfiguration: return configuration_;
-    case kPriority4: return read_priorities(4);
-    case kPriority8: return read_priorities(8);
-    case kPriority12: return read_priorities(12);
+    case kCpuId:
+      return kCortexM4;
+    case kInterruptState:
+      return interrupt_state();
+    case kVectorTable:
+      return vector_table_;
+    case kResetControl:
+      return 0xFA05'0000 | prigroup_ << 8;
+    case kSleep:
+      return sleep_;
+    case kConfiguration:
+      return configuration_;
+    case kPriority4:
+      return read_priorities(4);
+    case kPriority8:
+      return read_priorities(8);
+    case kPriority12:
+      return read_priorities(12);
     case kHandlers:
       return (nvic_.enabled(exception::kMemoryFault) ? 1u << 16 : 0) |
              (nvic_.enabled(exception::kBusFault) ? 1u << 17 : 0) |
              (nvic_.enabled(exception::kUsageFault) ? 1u << 18 : 0);
-    case kCfsr: return cfsr_;
-    case kHfsr: return hfsr_;
-    case kMmfar: return mmfar_;
-    case kBfar: return bfar_;
-    case kCoprocessors: return coprocessors_;
-    case kMpuType: return 8u << 8;
-    case kMpuControl: return mpu_control_;
-    case kMpuNumber: return mpu_number_;
-    case kMpuBase: return regions_[mpu_number_].base | mpu_number_;
-    case kMpuAttributes: return regions_[mpu_number_].attributes;
-    default: no_such_register(offset);
+    case kCfsr:
+      return cfsr_;
+    case kHfsr:
+      return hfsr_;
+    case kMmfar:
+      return mmfar_;
+    case kBfar:
+      return bfar_;
+    case kCoprocessors:
+      return coprocessors_;
+    case kMpuType:
+      return 8u << 8;
+    case kMpuControl:
+      return mpu_control_;
+    case kMpuNumber:
+      return mpu_number_;
+    case kMpuBase:
+      return regions_[mpu_number_].base | mpu_number_;
+    case kMpuAttributes:
+      return regions_[mpu_number_].attributes;
+    default:
+      no_such_register(offset);
   }
 }
 
 void SystemControl::write(std::uint32_t offset, std::uint32_t value) {
   switch (offset) {
-    case kInterruptState: return write_interrupt_state(value);
-    case kVectorTable: vector_table_ = value & 0x3FFF'FF80; return;
-    case kResetControl: return write_reset_control(value);
+    case kInterruptState:
+      return write_interrupt_state(value);
+    case kVectorTable:
+      vector_table_ = value & 0x3FFF'FF80;
+      return;
+    case kResetControl:
+      return write_reset_control(value);
     case kSleep:
       if ((value & 6) != 0) throw EmulatorError("SCB: deep sleep and sleep on exit have no model");
       sleep_ = value;
       return;
-    case kConfiguration: configuration_ = value; return;
-    case kPriority4: case kPriority8: case kPriority12:
+    case kConfiguration:
+      configuration_ = value;
+      return;
+    case kPriority4:
+    case kPriority8:
+    case kPriority12:
       for (std::uint32_t i = 0; i < 4; ++i) {
         nvic_.set_priority(int(offset - kPriority4 + 4 + i), std::uint8_t(value >> (8 * i)));
       }
@@ -110,17 +155,30 @@ void SystemControl::write(std::uint32_t offset, std::uint32_t value) {
       nvic_.enable(exception::kBusFault, (value & 1u << 17) != 0);
       nvic_.enable(exception::kUsageFault, (value & 1u << 18) != 0);
       return;
-    case kCfsr: cfsr_ &= ~value; return;
-    case kHfsr: hfsr_ &= ~value; return;
-    case kCoprocessors: coprocessors_ = value; return;
-    case kMpuControl: mpu_control_ = value & 7; return;
-    case kMpuNumber: mpu_number_ = value & 7; return;
+    case kCfsr:
+      cfsr_ &= ~value;
+      return;
+    case kHfsr:
+      hfsr_ &= ~value;
+      return;
+    case kCoprocessors:
+      coprocessors_ = value;
+      return;
+    case kMpuControl:
+      mpu_control_ = value & 7;
+      return;
+    case kMpuNumber:
+      mpu_number_ = value & 7;
+      return;
     case kMpuBase:
       if ((value & 0x10) != 0) mpu_number_ = value & 7;
       regions_[mpu_number_].base = value & ~0x1Fu;
       return;
-    case kMpuAttributes: regions_[mpu_number_].attributes = value; return;
-    default: no_such_register(offset);
+    case kMpuAttributes:
+      regions_[mpu_number_].attributes = value;
+      return;
+    default:
+      no_such_register(offset);
   }
 }
 

@@ -10,11 +10,13 @@ using test::SeenFrame;
 
 namespace {
 
-bool full() { return std::getenv("HOOF_FULL_TESTS") != nullptr; }
+bool full() {
+  return std::getenv("HOOF_FULL_TESTS") != nullptr;
+}
 
 std::string text(const SeenFrame& s) {
-  std::string line = std::to_string(s.frame.stamp_ns) + " ns bus " + std::to_string(s.bus) + " id " +
-                     std::to_string(s.frame.id) + ":";
+  std::string line = std::to_string(s.frame.stamp_ns) + " ns bus " + std::to_string(s.bus) +
+                     " id " + std::to_string(s.frame.id) + ":";
   for (int i = 0; i < s.frame.length; ++i) line += " " + std::to_string(s.frame.data[i]);
   return line;
 }
@@ -27,8 +29,7 @@ void require_same(const RunRecord& host, const RunRecord& board) {
     const SeenFrame& a = host.frames[i];
     const SeenFrame& b = board.frames[i];
     const bool same = a.bus == b.bus && a.frame.id == b.frame.id &&
-                      a.frame.stamp_ns == b.frame.stamp_ns &&
-                      a.frame == b.frame;
+                      a.frame.stamp_ns == b.frame.stamp_ns && a.frame == b.frame;
     if (!same) FAIL("frame " << i << ", host " << text(a) << "\n           image " << text(b));
     if (test::is_command(a.frame)) ++commands;
   }
@@ -64,7 +65,8 @@ TEST_CASE("a gain of the board's parameters changes what is on the bus") {
   const tools::RunSettings run = test::rigid_run("sinkage");
   tools::RunSettings other = test::rigid_run("sinkage", {"control.toe_kp_Nm_rad=249"});
   const auto go = [](const tools::RunSettings& r) {
-    return test::record_run(r, tools::emulator::emulated_firmware(test::image_file(), r.parameters));
+    return test::record_run(r,
+                            tools::emulator::emulated_firmware(test::image_file(), r.parameters));
   };
   const RunRecord a = go(run), b = go(other), again = go(run);
   const auto commands = [](const RunRecord& r) {

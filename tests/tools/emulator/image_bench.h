@@ -13,7 +13,9 @@
 namespace hoof::test {
 
 /// What `tools/hoof firmware build` made (the CTest fixture board_image).
-inline std::string image_file() { return HOOF_BOARD_IMAGE; }
+inline std::string image_file() {
+  return HOOF_BOARD_IMAGE;
+}
 
 inline bridge::SessionSettings session_settings(const tools::RunSettings& run) {
   bridge::SessionSettings s;
@@ -38,8 +40,9 @@ inline RunRecord record_run(const tools::RunSettings& run, const bridge::Firmwar
     record.frames.push_back({bus, frame});
   });
   std::uint32_t ticks = 0;
-  record.result = bridge::run_session(*experiment, firmware, *wires, session_settings(run),
-                                      [&](const bridge::TickRecord&) { return ++ticks < most_ticks; });
+  record.result =
+      bridge::run_session(*experiment, firmware, *wires, session_settings(run),
+                          [&](const bridge::TickRecord&) { return ++ticks < most_ticks; });
   return record;
 }
 
