@@ -70,4 +70,10 @@ class LocalFirmware final : public FirmwareNode {
   std::optional<firmware::app::ControlLoop> loop_;  // always there; it can start anew
 };
 
+inline FirmwareMaker local_firmware(const firmware::app::Parameters& parameters) {
+  return [parameters](hal::CanBus& bus0, hal::CanBus& bus1, const hal::Clock& clock) {
+    return std::make_unique<LocalFirmware>(bus0, bus1, clock, parameters);
+  };
+}
+
 }  // namespace hoof::bridge

@@ -30,12 +30,7 @@ std::int64_t whole_exchange_ns(double exchange_s) {
 
 LockStep::LockStep(sim::Experiment& experiment, const firmware::app::Parameters& parameters,
                    Wires& wires)
-    : LockStep(
-          experiment,
-          [&parameters](hal::CanBus& bus0, hal::CanBus& bus1, const hal::Clock& clock) {
-            return std::make_unique<LocalFirmware>(bus0, bus1, clock, parameters);
-          },
-          wires) {}
+    : LockStep(experiment, local_firmware(parameters), wires) {}
 
 LockStep::LockStep(sim::Experiment& experiment, const FirmwareMaker& firmware, Wires& wires,
                    Pace* pace)

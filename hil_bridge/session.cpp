@@ -234,11 +234,7 @@ SessionResult run_session(sim::Experiment& experiment, const FirmwareMaker& firm
 SessionResult run_session(sim::Experiment& experiment, const firmware::app::Parameters& parameters,
                           Wires& wires, const SessionSettings& settings,
                           const TickObserver& observer) {
-  const FirmwareMaker local = [&parameters](hal::CanBus& bus0, hal::CanBus& bus1,
-                                            const hal::Clock& clock) {
-    return std::make_unique<LocalFirmware>(bus0, bus1, clock, parameters);
-  };
-  return run_session(experiment, local, wires, settings, observer);
+  return run_session(experiment, local_firmware(parameters), wires, settings, observer);
 }
 
 }  // namespace hoof::bridge

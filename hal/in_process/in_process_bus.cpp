@@ -124,6 +124,7 @@ void InProcessPort::finish_sending() {
     mailbox.on_wire = false;
     --pending_count_;
     --bus_.pending_total_;
+    if (told_of_sent_) told_of_sent_(mailbox.frame);
   }
   ++status_.sent;
   if (transmit_errors_ > 0) {

@@ -77,6 +77,9 @@ class InProcessPort final : public CanBus {
   /// errors took off the bus also stays off until it is brought back here.
   void set_bus_off(bool off);
 
+  /// Called for each frame of this node that has left it, when it has. May not send.
+  void on_sent(std::function<void(const CanFrame&)> told) { told_of_sent_ = std::move(told); }
+
   const std::string& name() const { return name_; }
   int index() const { return index_; }  // in the order of attach(), from 0
   int pending() const { return pending_count_; }
@@ -113,6 +116,7 @@ class InProcessPort final : public CanBus {
   std::size_t queue_head_ = 0;
   std::size_t queue_size_ = 0;
   std::vector<CanFilter> filters_;
+  std::function<void(const CanFrame&)> told_of_sent_;
   BusStatus status_;
   int transmit_errors_ = 0;  // may pass 255 on the way to bus-off
   int receive_errors_ = 0;

@@ -36,6 +36,7 @@ constexpr std::string_view kBedKey = "use.bed";
 constexpr std::string_view kTerrainKey = "experiment.terrain";
 constexpr std::string_view kDriveKey = "experiment.drive";
 constexpr std::string_view kBusKey = "experiment.bus";
+constexpr std::string_view kFirmwareKey = "experiment.firmware";
 constexpr std::string_view kSeedKey = "experiment.seed";
 constexpr std::string_view kThreadsKey = "experiment.threads";
 
@@ -151,6 +152,7 @@ std::string examples(Experiment experiment) {
            "  hoof sinkage --foot traditional --load 40 --speed 0.1 --bed bench --seed 3\n"
            "  hoof sinkage --foot bionic --toe 30 --load 400N --out runs/toe-30 --force\n"
            "  hoof sinkage --terrain rigid --faults faults.toml\n"
+           "  hoof sinkage --terrain rigid --firmware emulated\n"
            "  hoof sinkage --resume runs/toe-30.resume\n"
            "  hoof sinkage --bus vcan0                          firmware and plant as two "
            "processes\n"
@@ -274,6 +276,11 @@ void add_experiment_options(CLI::App& command, ExperimentOptions& options, Exper
   command.add_option("--terrain", options.terrain, "Grains (dem) or a rigid plane")
       ->type_name("dem|rigid")
       ->check(one_of({"dem", "rigid"}));
+  command
+      .add_option("--firmware", options.firmware,
+                  "The loop in this process, or the board's image in an emulator")
+      ->type_name("host|emulated")
+      ->check(one_of({"host", "emulated"}));
   add_bus_options(command, options.bus);
   add_fault_options(command, options.faults);
   add_run_options(command, options.run);
@@ -308,6 +315,7 @@ std::vector<std::string> settings_overrides(const ExperimentOptions& options) {
   add_text(kTerrainKey, options.terrain);
   add_text(kDriveKey, options.drive);
   add_text(kBusKey, options.bus.bus);
+  add_text(kFirmwareKey, options.firmware);
   add_fault_overrides(options.faults, overrides);
   if (options.run.seed) add(kSeedKey, std::to_string(*options.run.seed));
   if (options.run.threads) add(kThreadsKey, std::to_string(*options.run.threads));

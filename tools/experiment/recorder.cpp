@@ -40,7 +40,7 @@ Recorder::Recorder(const RunSettings& run, const std::filesystem::path& folder, 
   start.experiment = run.kind;
   start.foot = run.foot_name;
   start.code_version = std::string(build_version().code);
-  start.firmware_hash = sha256_hex_of_file("/proc/self/exe");
+  start.firmware_hash = sha256_hex_of_file(run.image.empty() ? "/proc/self/exe" : run.image);
   telemetry_.write(start);
   write_file(folder / bridge::kRecordingFactsFile,
              to_json(bridge::recording_facts(run.bus, run.coupling.exchange_s, run.parameters)));

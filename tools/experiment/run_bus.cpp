@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "hil_bridge/remote_foot.h"
+#include "tools/emulator/emulated_firmware.h"
 #include "tools/run/errors.h"
 
 namespace hoof::tools {
@@ -48,6 +49,9 @@ std::string histogram_text(const char* name, const bridge::DurationHistogram& hi
 }  // namespace
 
 void check_bus_choice(const RunSettings& run, const BusChoice& choice) {
+  if (!run.image.empty() && run.bus != kInProcess) {
+    throw UserError("--firmware emulated: the emulated board is in this process; leave out --bus");
+  }
   if (!choice.real_time) return;
   if (run.bus == kInProcess) {
     throw UserError(
@@ -94,11 +98,8 @@ void RunBus::require_presence() const {
 }
 
 bridge::FirmwareMaker RunBus::firmware() {
-  if (!remote()) {
-    return [this](hal::CanBus& bus0, hal::CanBus& bus1, const hal::Clock& clock) {
-      return std::make_unique<bridge::LocalFirmware>(bus0, bus1, clock, run_.parameters);
-    };
-  }
+  if (!run_.image.empty()) return emulator::emulated_firmware(run_.image, run_.parameters, *wires_);
+  if (!remote()) return bridge::local_firmware(run_.parameters);
   if (!choice_.real_time) {
     return [this](hal::CanBus& bus0, hal::CanBus& bus1, const hal::Clock& clock) {
       return std::make_unique<bridge::RemoteFoot>(*line_, std::array{&bus0, &bus1},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <string_view>
 #include <thread>
 
@@ -111,6 +112,13 @@ void read_control(const sim::Settings& tree, Parameters& parameters) {
   }
 }
 
+/// Where `hoof firmware build` puts the image: beside the folder of this program.
+std::string built_image() {
+  const auto program = std::filesystem::read_symlink("/proc/self/exe");
+  const auto build = program.parent_path().parent_path().parent_path();
+  return (build / "stm32f405" / "hoof-stm32f405.elf").string();
+}
+
 void read_experiment(const sim::Reader& root, RunSettings& run) {
   sim::Reader section = root.section("experiment");
   section.choice("kind", run.kind, {"sinkage", "traction"});
@@ -118,6 +126,10 @@ void read_experiment(const sim::Reader& root, RunSettings& run) {
   section.choice("terrain", terrain, {"dem", "rigid"});
   run.on_grains = terrain == "dem";
   section.text("bus", run.bus);
+  std::string firmware, image;
+  section.choice("firmware", firmware, {"host", "emulated"});
+  section.text("image", image);
+  if (firmware == "emulated") run.image = image == "built" ? built_image() : image;
   std::int64_t seed = 0;
   section.integer("seed", seed, 0, std::int64_t(1) << 53);
   run.seed = std::uint64_t(seed);

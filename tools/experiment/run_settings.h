@@ -25,6 +25,7 @@ struct RunSettings {
   std::string foot_name;
   bool on_grains = true;
   std::string bus;  // "in_process", or SocketCAN interfaces
+  std::string image;  // the board's, an ELF file; empty: the firmware runs in this process
   std::uint64_t seed = 0;
   int threads = 1;
 

@@ -99,6 +99,11 @@ Json reaction(const bridge::SessionResult& session) {
 Json firmware_identity(const RunSettings& run) {
   char hash[11];
   std::snprintf(hash, sizeof hash, "0x%08x", firmware::protocol::kProtocolHash);
+  if (!run.image.empty()) {
+    return {{"runs_on", "emulated STM32F405"},
+            {"sha256", sha256_hex_of_file(run.image)},
+            {"protocol_hash", hash}};
+  }
   // Elsewhere on the bus; it has told that it speaks the same dictionary, and no more.
   if (run.bus != kInProcess) return {{"runs_on", run.bus}, {"protocol_hash", hash}};
   // The host firmware is part of this program, so the program's bytes are the firmware's.

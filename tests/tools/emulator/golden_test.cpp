@@ -1,0 +1,77 @@
+// Host build and board's image, the same test: they must say the same, byte for byte.
+#include <catch2/catch.hpp>
+#include <cstdlib>
+
+#include "tests/tools/emulator/image_bench.h"
+
+using namespace hoof;
+using test::RunRecord;
+using test::SeenFrame;
+
+namespace {
+
+bool full() {
+  return std::getenv("HOOF_FULL_TESTS") != nullptr;
+}
+
+std::string text(const SeenFrame& s) {
+  std::string line = std::to_string(s.frame.stamp_ns) + " ns bus " + std::to_string(s.bus) +
+                     " id " + std::to_string(s.frame.id) + ":";
+  for (int i = 0; i < s.frame.length; ++i) line += " " + std::to_string(s.frame.data[i]);
+  return line;
+}
+
+/// Every frame on both buses, with its time to the nanosecond.
+void require_same(const RunRecord& host, const RunRecord& board) {
+  const std::size_t count = std::min(host.frames.size(), board.frames.size());
+  std::size_t commands = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const SeenFrame& a = host.frames[i];
+    const SeenFrame& b = board.frames[i];
+    const bool same = a.bus == b.bus && a.frame.id == b.frame.id &&
+                      a.frame.stamp_ns == b.frame.stamp_ns && a.frame == b.frame;
+    if (!same) FAIL("frame " << i << ", host " << text(a) << "\n           image " << text(b));
+    if (test::is_command(a.frame)) ++commands;
+  }
+  CHECK(host.frames.size() == board.frames.size());
+  CHECK(commands >= host.result.ticks);
+  CHECK(host.result.ticks == board.result.ticks);
+  CHECK(host.result.toe_reached_rad == board.result.toe_reached_rad);
+}
+
+void compare(const std::string& kind, const std::vector<std::string>& set, std::uint32_t ticks) {
+  const tools::RunSettings run = test::rigid_run(kind, set);
+  const RunRecord host = test::record_run(run, test::host(run), ticks);
+  const RunRecord board = test::record_run(run, test::image(run), ticks);
+  require_same(host, board);
+}
+
+}  // namespace
+
+TEST_CASE("golden: sinkage on the rigid floor, host and image") {
+  for (const char* toe : {"0", "20", "40"}) {
+    CAPTURE(toe);
+    compare("sinkage", {std::string("experiment.toe_deg=") + toe}, UINT32_MAX);
+  }
+}
+
+TEST_CASE("golden: traction on the rigid floor, host and image") {
+  compare("traction", {"experiment.frequency_Hz=1", "experiment.toe_deg=20"},
+          full() ? 20'000 : 4'000);
+}
+
+TEST_CASE("a gain of the board's parameters changes what is on the bus") {
+  const tools::RunSettings run = test::rigid_run("sinkage");
+  tools::RunSettings other = test::rigid_run("sinkage", {"control.toe_kp_Nm_rad=249"});
+  const auto go = [](const tools::RunSettings& r) { return test::record_run(r, test::image(r)); };
+  const RunRecord a = go(run), b = go(other), again = go(run);
+  const auto commands = [](const RunRecord& r) {
+    std::vector<hal::CanFrame> found;
+    for (const SeenFrame& s : r.frames) {
+      if (test::is_command(s.frame)) found.push_back(s.frame);
+    }
+    return found;
+  };
+  CHECK(commands(a) == commands(again));
+  CHECK(commands(a) != commands(b));
+}

@@ -1,0 +1,97 @@
+// The board around the image: memory, models, supply, resets, time.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "hal/board.h"
+#include "hal/in_process/ram_flash.h"
+#include "tools/emulator/bxcan.h"
+#include "tools/emulator/core.h"
+#include "tools/emulator/elf_file.h"
+#include "tools/emulator/flash_controller.h"
+#include "tools/emulator/gpio.h"
+#include "tools/emulator/iwdg.h"
+#include "tools/emulator/pwr.h"
+#include "tools/emulator/rcc.h"
+#include "tools/emulator/system_tick.h"
+
+namespace hoof::tools::emulator {
+
+/// The data sectors of a part fresh from the factory.
+hal::RamFlash blank_flash(std::uint32_t seed = 1);
+
+/// Runs the image as it is. The core is taken to be infinitely fast: time stands still while it
+/// runs and passes while it sleeps, or waits for the flash. So its answers have the simulator's
+/// time, as the loop's in one process have.
+class Board final : private RegisterSpace {
+ public:
+  static constexpr std::size_t kBuses = 2;
+
+  /// @param flash what sectors 1 to 3 hold: outlives the board, as real flash does a supply
+  Board(ElfFile image, hal::RamFlash& flash);
+
+  /// The supply comes on: RAM holds anything, the image starts. Runs until it sleeps for the first
+  /// time. @throws EmulatorError
+  void power_on();
+  /// The reset pin, a fallen supply that comes back, or whatever else.
+  void reset(hal::ResetCause cause);
+  bool powered() const { return powered_; }
+
+  /// Time comes to `t`: the image wakes where something happens before or at it.
+  void advance_to(Cycles t);
+  Cycles now() const { return time_.now; }
+  /// The next tick of SysTick.
+  Cycles next_tick() const { return system_tick_.next_tick(); }
+
+  void connect(std::size_t bus, std::unique_ptr<CanWire> wire);
+  void press_emergency_stop(bool pressed);
+  void set_supply_low(bool low) { pwr_.set_supply_low(low); }
+  void set_clock_faults(const ClockFaults& faults) { rcc_.set_faults(faults); }
+  void set_watchdog_oscillator_Hz(std::uint32_t hertz) { iwdg_.set_oscillator_Hz(hertz); }
+
+  std::uint32_t resets() const { return resets_; }  // since power-on
+  hal::ResetCause last_reset() const { return last_reset_; }
+  bool stuck() const { return state_ == State::kStuck; }
+
+  const ElfFile& image() const { return image_; }
+  Cpu& cpu() { return cpu_; }
+  const Core::Counts& counts() const { return core_.counts(); }
+
+ private:
+  enum class State { kAsleep, kStuck };
+
+  std::uint32_t read(std::uint32_t address, unsigned bytes) override;
+  void write(std::uint32_t address, unsigned bytes, std::uint32_t value) override;
+  Peripheral& peripheral_at(std::uint32_t address, std::uint32_t& offset);
+  void load_image();
+  void start(hal::ResetCause cause);
+  void run();
+  void run_core();
+  void spend(Cycles cycles);
+  bool advance_buses(bool overrun);
+
+  ElfFile image_;
+  BoardTime time_;
+  Nvic nvic_;
+  Cpu cpu_{[this] { return nvic_.highest_pending() != 0; }};
+  SystemControl control_{nvic_};
+  Core core_{cpu_, nvic_, control_};
+  SystemTick system_tick_{time_, nvic_};
+  Rcc rcc_{[this](std::uint32_t megahertz) { system_tick_.set_core_MHz(megahertz); }};
+  FlashController flash_;
+  Iwdg iwdg_{time_};
+  Pwr pwr_;
+  Gpio port_b_;
+  CanFilters filters_;
+  std::array<std::unique_ptr<BxCan>, kBuses> can_;
+  State state_ = State::kAsleep;
+  bool powered_ = false;
+  std::uint32_t resets_ = 0;
+  hal::ResetCause last_reset_ = hal::ResetCause::kPowerOn;
+};
+
+}  // namespace hoof::tools::emulator

@@ -1,0 +1,66 @@
+#include "tools/emulator/emulated_firmware.h"
+
+#include <stdexcept>
+
+#include "firmware/app/storage.h"
+#include "firmware/protocol/dictionary.h"
+
+namespace hoof::tools::emulator {
+namespace {
+
+constexpr Cycles kHeartbeatPeriod =
+    firmware::protocol::spec(firmware::protocol::Message::kHeartbeat).cycle_ms *
+    kCyclesPerMillisecond;
+
+/// Its counter has four bits: this many later it is what it was in the first.
+constexpr int kHeartbeatCounts = 16;
+
+}  // namespace
+
+hal::RamFlash flash_with(const firmware::app::Parameters& parameters) {
+  hal::RamFlash flash = blank_flash();
+  firmware::app::Storage storage(flash);
+  firmware::app::Parameters ignored;
+  storage.load(ignored);  // readies the fault log, too
+  if (storage.store(parameters, firmware::control::Mode::kOff) != firmware::app::StoreResult::kOk) {
+    throw std::invalid_argument("the parameters cannot be stored: a value is out of its range");
+  }
+  return flash;
+}
+
+EmulatedFirmware::EmulatedFirmware(const ElfFile& image, hal::RamFlash flash, Buses buses,
+                                   Buses listeners, const hal::Clock& clock)
+    : flash_(std::move(flash)), board_(image, flash_), listeners_(listeners), clock_(clock) {
+  board_.power_on();
+  // The second heartbeat comes with the first tick a period after the first, the others a period
+  // on.
+  const Cycles second = board_.now() + kHeartbeatPeriod;
+  while (board_.next_tick() < second) board_.advance_to(board_.next_tick());
+  start_ = board_.next_tick() + (kHeartbeatCounts - 1) * kHeartbeatPeriod;
+  while (board_.next_tick() < start_) board_.advance_to(board_.next_tick());
+  for (std::size_t bus = 0; bus < Board::kBuses; ++bus) {
+    board_.connect(bus, wire_of(*buses[bus]));
+  }
+}
+
+void EmulatedFirmware::poll(std::uint32_t) {
+  const std::int64_t now_ns = clock_.now_ns();
+  hal::CanFrame frame;
+  for (hal::CanBus* listener : listeners_) {
+    while (listener->receive(frame)) told_.take(frame, now_ns);
+  }
+  board_.advance_to(start_ + cycles_of_ns(now_ns));
+}
+
+bridge::FirmwareMaker emulated_firmware(const std::string& image,
+                                        const firmware::app::Parameters& parameters,
+                                        bridge::Wires& wires) {
+  return [elf = read_elf_file(image), parameters, &wires](hal::CanBus& bus0, hal::CanBus& bus1,
+                                                          const hal::Clock& clock) {
+    return std::make_unique<EmulatedFirmware>(
+        elf, flash_with(parameters), EmulatedFirmware::Buses{&bus0, &bus1},
+        EmulatedFirmware::Buses{&wires.attach(0, "recorder"), &wires.attach(1, "recorder")}, clock);
+  };
+}
+
+}  // namespace hoof::tools::emulator

@@ -1,0 +1,78 @@
+// One port of pins.
+//
+// Source: RM0090 rev. 19, 8.4.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "tools/emulator/peripheral.h"
+
+namespace hoof::tools::emulator {
+
+class Gpio final : public Peripheral {
+ public:
+  enum class Mode : std::uint8_t { kInput = 0, kOutput, kAlternate, kAnalog };
+
+  const char* name() const override { return "GPIO B"; }
+
+  std::uint32_t read(std::uint32_t offset) override {
+    if (offset == kInputData) return levels();
+    if (offset >= registers_.size() * 4 || offset == kSetReset) no_such_register(offset);
+    return registers_[offset / 4];
+  }
+  void write(std::uint32_t offset, std::uint32_t value) override {
+    if (offset == kSetReset) {
+      registers_[kOutputData / 4] |= value & 0xFFFF;
+      registers_[kOutputData / 4] &= ~(value >> 16 & ~value);
+      return;
+    }
+    if (offset >= registers_.size() * 4 || offset == kInputData) no_such_register(offset);
+    registers_[offset / 4] = value;
+  }
+  void reset() override {
+    registers_ = {};
+    registers_[kModes / 4] = 0x0000'0280;
+    registers_[kSpeeds / 4] = 0x0000'00C0;
+    registers_[kPulls / 4] = 0x0000'0100;
+  }
+
+  /// What is wired to a pin: high, or nothing.
+  void wire_high(std::uint32_t pin, bool high) {
+    driven_high_ = (driven_high_ & ~(1u << pin)) | std::uint32_t{high} << pin;
+  }
+
+  Mode mode(std::uint32_t pin) const { return Mode(registers_[kModes / 4] >> (2 * pin) & 3); }
+  std::uint32_t alternate(std::uint32_t pin) const {
+    return registers_[(kAlternates + 4 * (pin / 8)) / 4] >> (4 * (pin % 8)) & 0xF;
+  }
+
+ private:
+  enum Offset {
+    kModes = 0x00,
+    kSpeeds = 0x08,
+    kPulls = 0x0C,
+    kInputData = 0x10,
+    kOutputData = 0x14,
+    kSetReset = 0x18,
+    kAlternates = 0x20
+  };
+
+  /// A pin that nothing drives reads as it is pulled; without a pull, low.
+  std::uint32_t levels() const {
+    std::uint32_t value = 0;
+    for (std::uint32_t pin = 0; pin < 16; ++pin) {
+      const bool up = (registers_[kPulls / 4] >> (2 * pin) & 3) == 1;
+      const bool output = mode(pin) == Mode::kOutput;
+      const bool high = output ? (registers_[kOutputData / 4] >> pin & 1) != 0
+                               : (driven_high_ >> pin & 1) != 0 || up;
+      value |= std::uint32_t{high} << pin;
+    }
+    return value;
+  }
+
+  std::array<std::uint32_t, 10> registers_{};
+  std::uint32_t driven_high_ = 0;
+};
+
+}  // namespace hoof::tools::emulator
