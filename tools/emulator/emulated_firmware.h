@@ -7,6 +7,7 @@
 #include "firmware/app/parameters.h"
 #include "hil_bridge/bus_telemetry.h"
 #include "hil_bridge/firmware_node.h"
+#include "hil_bridge/wires.h"
 #include "tools/emulator/board.h"
 
 namespace hoof::tools::emulator {
