@@ -9,6 +9,9 @@ The image of the board (STM32F405): cross-compiled, measured, flashed.
   tools/hoof firmware size      the same of what was compiled last
   tools/hoof firmware flash     builds, then writes it to a board; refused where a bound is missed
 
+  tools/hoof firmware emulate   runs it in an emulator on a CAN bus, as a flashed board would run there
+  tools/hoof firmware run       the same firmware as a program of this machine
+
   --by TOOL     openocd (default), st-flash or dfu-util
   --dry-run     shows the commands and the wiring, writes nothing
 
@@ -23,7 +26,7 @@ HELP
 }
 
 firmware_usage() {
-  say "$1; known are build, size and flash, e.g. tools/hoof firmware build"
+  say "$1; known are build, size, flash, emulate and run, e.g. tools/hoof firmware build"
   exit 2
 }
 

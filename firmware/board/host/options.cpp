@@ -17,7 +17,8 @@ std::string range_text(const app::ParameterEntry& entry) {
   return text.str();
 }
 
-/// "name=value"; an empty string when it was taken, else what is wrong with it.
+}  // namespace
+
 std::string apply_setting(app::Parameters& parameters, std::string_view setting) {
   const std::string quoted = "--set " + std::string(setting) + ": ";
   const std::size_t equals = setting.find('=');
@@ -37,8 +38,6 @@ std::string apply_setting(app::Parameters& parameters, std::string_view setting)
   }
   return {};
 }
-
-}  // namespace
 
 Options read_options(int argc, char** argv) {
   Options options;

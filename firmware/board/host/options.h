@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "firmware/app/parameters.h"
@@ -21,6 +22,9 @@ struct Options {
 
 /// @throws CLI::ParseError for bad usage, with the text to print
 Options read_options(int argc, char** argv);
+
+/// Sets one parameter from "name=value". @return an empty string, else what is wrong with it
+std::string apply_setting(app::Parameters& parameters, std::string_view setting);
 
 /// Sets what the command line sets, over what is there.
 void apply_settings(const Options& options, app::Parameters& parameters);

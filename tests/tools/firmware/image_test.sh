@@ -53,7 +53,7 @@ expect "dfu-util -d 0483:df11 -a 0 -s 0x08010000 -D $image-app.bin" "$hoof" firm
 expect "Examples:" "$hoof" firmware --help
 expect "Examples:" "$hoof" firmware flash --help
 expect "firmware build" "$hoof" --help
-expect_exit 2 "known are build, size and flash" "$hoof" firmware
+expect_exit 2 "known are build, size, flash" "$hoof" firmware
 expect_exit 2 "unknown word 'burn'" "$hoof" firmware burn
 expect_exit 2 "--by takes openocd, st-flash or dfu-util, not 'jlink'" "$hoof" firmware flash --by jlink
 expect_exit 2 "firmware build does not take '--dry-run'" "$hoof" firmware build --dry-run
