@@ -1,23 +1,27 @@
 #include "firmware/protocol/codec.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace hoof::firmware::protocol {
 namespace {
 
 using Frame = hal::CanFrame;
 
-/// The 8 classic data bytes as one number, byte 0 most significant.
+static_assert(std::endian::native == std::endian::little, "the bytes are swapped as a whole");
+
+/// The 8 classic data bytes as one number, byte 0 most significant. Two instructions a word on the
+/// board; byte by byte it was a quarter of the cost of a control tick.
 std::uint64_t load(const Frame& frame) {
   std::uint64_t word = 0;
-  for (std::size_t i = 0; i < Frame::kMaxClassicLength; ++i) word = word << 8 | frame.data[i];
-  return word;
+  __builtin_memcpy(&word, frame.data.data(),
+                   sizeof word);  // freestanding: std::memcpy would be a call
+  return __builtin_bswap64(word);
 }
 
 void store(Frame& frame, std::uint64_t word) {
-  for (std::size_t i = Frame::kMaxClassicLength; i-- > 0; word >>= 8) {
-    frame.data[i] = static_cast<std::uint8_t>(word);
-  }
+  word = __builtin_bswap64(word);
+  __builtin_memcpy(frame.data.data(), &word, sizeof word);
 }
 
 unsigned shift_of(const Signal& signal) {
