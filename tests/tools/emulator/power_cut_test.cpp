@@ -1,0 +1,174 @@
+// The supply fails while the board's image writes its flash: the next start must find the set of
+// before or the set of after, and a board that can store again. It must never be bricked.
+#include <catch2/catch.hpp>
+#include <cstdlib>
+
+#include "firmware/app/parameters.h"
+#include "firmware/protocol/codec.h"
+#include "hal/in_process/in_process_bus.h"
+#include "hal/stepped_clock.h"
+#include "hil_bridge/service_client.h"
+#include "tools/emulator/board.h"
+#include "tools/emulator/can_wire.h"
+
+using namespace hoof;
+using namespace hoof::tools::emulator;
+namespace protocol = firmware::protocol;
+
+namespace {
+
+constexpr std::int64_t kStep_ns = 500'000;
+
+std::uint8_t index_of(std::string_view name) {
+  const auto* entry = firmware::app::find_parameter(name);
+  REQUIRE(entry != nullptr);
+  return std::uint8_t(entry - firmware::app::parameter_table().data());
+}
+
+/// The board on a wire with one tool; its flash outlives it, as real flash does a supply.
+class PoweredBoard {
+ public:
+  explicit PoweredBoard(hal::RamFlash& flash)
+      : board_(image(), flash),
+        client_(
+            desk_, clock_, [this] { pass(); }, 2, kPatience_ns) {
+    board_.connect(0, wire_of(bus0_.attach("foot")));
+    board_.connect(1, wire_of(bus1_.attach("foot")));
+    board_.power_on();
+    start_ = board_.now();
+  }
+
+  bridge::ServiceClient& client() { return client_; }
+  Board& board() { return board_; }
+
+  void run_ms(int ms) {
+    for (int i = 0; i < 2 * ms; ++i) pass();
+  }
+
+  std::optional<protocol::Heartbeat> heartbeat() {
+    hal::CanFrame frame;
+    while (listener_.receive(frame)) {
+      protocol::Heartbeat h;
+      if (decode(frame, h) == protocol::DecodeResult::kOk) heartbeat_ = h;
+    }
+    return heartbeat_;
+  }
+
+ private:
+  static constexpr std::int64_t kPatience_ns = 1'000'000'000;  // an erase takes 250 ms
+
+  static const ElfFile& image() {
+    static const ElfFile elf = read_elf_file(HOOF_BOARD_IMAGE);
+    return elf;
+  }
+
+  void pass() {
+    clock_.advance_to(clock_.now_ns() + kStep_ns);
+    bus0_.advance_to(clock_.now_ns());
+    bus1_.advance_to(clock_.now_ns());
+    board_.advance_to(start_ + cycles_of_ns(clock_.now_ns()));
+  }
+
+  hal::SteppedClock clock_;
+  hal::InProcessBus bus0_{{.name = "can0", .bit_rates = {}}};
+  hal::InProcessBus bus1_{{.name = "can1", .bit_rates = {}}};
+  hal::CanBus& desk_ = bus0_.attach("desk");
+  hal::CanBus& listener_ = bus0_.attach("listener");
+  Board board_;
+  bridge::ServiceClient client_;
+  Cycles start_ = 0;
+  std::optional<protocol::Heartbeat> heartbeat_;
+};
+
+constexpr float kOld = 240.0f, kNew = 260.0f, kLater = 250.0f;
+
+void store(hal::RamFlash& flash, float value) {
+  PoweredBoard foot(flash);
+  foot.client().connect();
+  foot.client().write_parameter(index_of("toe_kp_Nm_rad"), value);
+  foot.client().store_parameters();
+}
+
+float stored(hal::RamFlash& flash) {
+  PoweredBoard foot(flash);
+  foot.client().connect();
+  return foot.client().read_parameter(index_of("toe_kp_Nm_rad"));
+}
+
+/// @return false where the store was over before the cut
+bool cut_a_store(hal::RamFlash& flash, std::size_t operations, hal::CutOutcome outcome) {
+  PoweredBoard foot(flash);
+  foot.client().connect();
+  foot.client().write_parameter(index_of("toe_kp_Nm_rad"), kNew);
+  flash.cut_after(operations, outcome);
+  bool answered = true;
+  try {
+    foot.client().store_parameters();
+  } catch (const bridge::ServiceError&) {
+    answered = false;
+  }
+  flash.cancel_cut();
+  CHECK(foot.board().powered() == answered);
+  return !answered;
+}
+
+bool full() {
+  return std::getenv("HOOF_FULL_TESTS") != nullptr;
+}
+
+}  // namespace
+
+TEST_CASE("power cut: at every write and erase of a store the board keeps the old set or the new") {
+  const auto outcome = GENERATE(hal::CutOutcome::kOld, hal::CutOutcome::kNew,
+                                hal::CutOutcome::kMixed, hal::CutOutcome::kUnstable);
+  hal::RamFlash before = blank_flash();
+  store(before, kLater);  // both copies of parameters are in use
+  store(before, kOld);
+  const std::size_t step = full() ? 1 : 9;
+  int cuts = 0, old_sets = 0, new_sets = 0;
+  for (std::size_t n = 0;; n += step) {
+    CAPTURE(int(outcome), n);
+    hal::RamFlash flash = before;
+    if (!cut_a_store(flash, n, outcome)) break;
+    ++cuts;
+    const float value = stored(flash);
+    CHECK((value == kOld || value == kNew));
+    (value == kOld ? old_sets : new_sets) += 1;
+    store(flash, kLater);
+    CHECK(stored(flash) == kLater);
+  }
+  CAPTURE(cuts, old_sets, new_sets);
+  CHECK(cuts > (full() ? 60 : 6));
+  CHECK(old_sets > 0);
+}
+
+TEST_CASE("power cut: while a fault is written to its log the next start is in order") {
+  const auto outcome = GENERATE(hal::CutOutcome::kNew, hal::CutOutcome::kMixed);
+  hal::RamFlash before = blank_flash();
+  store(before, kOld);
+  const std::size_t step = full() ? 1 : 37;
+  int cuts = 0;
+  for (std::size_t n = 0;; n += step) {
+    CAPTURE(int(outcome), n);
+    hal::RamFlash flash = before;
+    {
+      PoweredBoard foot(flash);
+      foot.run_ms(20);
+      flash.cut_after(n, outcome);
+      foot.board().press_emergency_stop(true);
+      foot.run_ms(400);  // two words a millisecond
+      flash.cancel_cut();
+      if (foot.board().powered()) break;
+    }
+    ++cuts;
+    PoweredBoard again(flash);
+    again.run_ms(300);
+    REQUIRE(again.heartbeat());
+    CHECK(again.heartbeat()->mode == protocol::Mode::kOff);
+    CHECK(again.heartbeat()->faults == 0);
+    CHECK(again.board().resets() == 0);
+    again.client().connect();
+    CHECK(again.client().read_parameter(index_of("toe_kp_Nm_rad")) == kOld);
+  }
+  CHECK(cuts > (full() ? 200 : 5));
+}
