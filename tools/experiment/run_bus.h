@@ -33,6 +33,9 @@ class RunBus {
   /// Passes the parameters and makes the wires. Once.
   bridge::Wires& start(bridge::Wires::Observer observer);
   bridge::FirmwareMaker firmware();
+  /// "in_process" where the frames go over simulated wires, as those of a lock-step run do wherever
+  /// its firmware is; else the interfaces.
+  std::string wires_name() const { return choice_.real_time ? run_.bus : kInProcess; }
   /// Null in lock-step.
   bridge::Pace* pace() { return pace_ ? pace_.get() : nullptr; }
 

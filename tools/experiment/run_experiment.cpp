@@ -117,7 +117,7 @@ class Run {
     const sim::SandBed* sand = find_sand(experiment_->plant().terrain());
     sim::BedState untouched;
     if (sand != nullptr) untouched = sand->state();
-    recorder_ = std::make_unique<Recorder>(run_, folder_->working_path(), output_.live);
+    recorder_ = std::make_unique<Recorder>(run_, bus_->wires_name(), folder_->working_path(), output_.live);
     const bridge::SessionResult session = drive();
     if (session.interrupted) save_for_resuming();
     recorder_->close();
