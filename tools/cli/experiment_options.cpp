@@ -32,6 +32,7 @@ constexpr std::string_view kFrequencyKey = "experiment.frequency_Hz";
 constexpr std::string_view kToeKey = "experiment.toe_deg";
 constexpr std::string_view kBedKey = "use.bed";
 constexpr std::string_view kTerrainKey = "experiment.terrain";
+constexpr std::string_view kSoilKey = "use.rft_terrain";
 constexpr std::string_view kDriveKey = "experiment.drive";
 constexpr std::string_view kBusKey = "experiment.bus";
 constexpr std::string_view kSeedKey = "experiment.seed";
@@ -148,6 +149,7 @@ std::string examples(Experiment experiment) {
            "  hoof sinkage\n"
            "  hoof sinkage --foot traditional --load 40 --speed 0.1 --bed bench --seed 3\n"
            "  hoof sinkage --foot bionic --toe 30 --load 400N --out runs/toe-30 --force\n"
+           "  hoof sinkage --terrain rft --soil soil.toml\n"
            "  hoof sinkage --resume runs/toe-30.resume";
   }
   return "Examples:\n"
@@ -229,9 +231,12 @@ void add_experiment_options(CLI::App& command, ExperimentOptions& options, Exper
   command.add_option("--bed", options.bed, "Preset demo, bench or paper, or a file")
       ->type_name("PRESET|FILE")
       ->check(name_or_file(kBeds, ""));
-  command.add_option("--terrain", options.terrain, "Grains (dem) or a rigid plane")
-      ->type_name("dem|rigid")
-      ->check(one_of({"dem", "rigid"}));
+  command.add_option("--terrain", options.terrain, "Grains (dem), a fast law (rft) or a rigid plane")
+      ->type_name("dem|rft|rigid")
+      ->check(one_of({"dem", "rft", "rigid"}));
+  command.add_option("--soil", options.soil, "Of --terrain rft: demo, or a file of hoof terrain fit")
+      ->type_name("NAME|FILE")
+      ->check(name_or_file({"demo"}, ".toml"));
   command.add_option("--bus", options.bus, "CAN interface, e.g. vcan0 [in process]")
       ->type_name("IFACE");
   add_run_options(command, options.run);
@@ -264,6 +269,7 @@ std::vector<std::string> settings_overrides(const ExperimentOptions& options) {
   add_number(kToeKey, options.toe);
   add_text(kBedKey, options.bed);
   add_text(kTerrainKey, options.terrain);
+  add_text(kSoilKey, options.soil);
   add_text(kDriveKey, options.drive);
   add_text(kBusKey, options.bus);
   if (options.run.seed) add(kSeedKey, std::to_string(*options.run.seed));

@@ -24,7 +24,8 @@ struct ExperimentOptions {
   std::string frequency;         ///< Hz, of the stance ellipse (traction)
   std::string toe;               ///< degrees per side, 0..40
   std::string bed;               ///< preset demo, bench, paper, or a file
-  std::string terrain;           ///< dem or rigid
+  std::string terrain;           ///< dem, rft or rigid
+  std::string soil;              ///< of rft: preset or file
   std::string drive;             ///< firmware or prescribed
   std::string bus;               ///< CAN interface such as vcan0; not given: the in-process bus
   std::filesystem::path resume;  ///< folder of an unfinished run; its settings hold, not these

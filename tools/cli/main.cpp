@@ -77,6 +77,7 @@ int main(int argc, char** argv) {
   add_sinkage_command(app, invocation);
   add_traction_command(app, invocation);
   add_study_command(app, invocation);
+  add_terrain_command(app, invocation);
   add_bed_command(app, invocation);
   add_order_command(app, invocation);
   add_param_command(app, invocation);
