@@ -2,9 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 #include <stdexcept>
 
 namespace hoof::sim {
@@ -12,6 +10,8 @@ namespace {
 
 /// cos 20 deg: alpha changes by less than a tenth over half of that.
 constexpr double kSameNormal = 0.9397;
+/// A facet is no further off a plane than this share of its reach: 20 degrees from edge to middle.
+constexpr double kLevel = 0.36;
 
 struct Triangle {
   Eigen::Vector3d a, b, c;
@@ -37,12 +37,36 @@ void cut(const Triangle& t, double size_m, std::vector<Triangle>& out) {
   }
 }
 
-struct Sum {
-  Eigen::Vector3d first_normal = Eigen::Vector3d::Zero();
+struct Cluster {
+  Eigen::Vector3d seed_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d seed_normal = Eigen::Vector3d::Zero();
   Eigen::Vector3d vector_area_m2 = Eigen::Vector3d::Zero();
   Eigen::Vector3d moment_m3 = Eigen::Vector3d::Zero();
   double area_m2 = 0;
+
+  void add(const Eigen::Vector3d& piece_area_m2, const Eigen::Vector3d& centre_m) {
+    vector_area_m2 += piece_area_m2;
+    moment_m3 += piece_area_m2.norm() * centre_m;
+    area_m2 += piece_area_m2.norm();
+  }
 };
+
+/// The nearest cluster that a piece may join, or the end.
+std::size_t find_cluster(const std::vector<Cluster>& clusters, const Eigen::Vector3d& centre_m,
+                         const Eigen::Vector3d& normal, double reach_m) {
+  std::size_t nearest = clusters.size();
+  double least_m2 = reach_m * reach_m;
+  for (std::size_t i = 0; i < clusters.size(); ++i) {
+    const Eigen::Vector3d way_m = centre_m - clusters[i].seed_m;
+    const double distance_m2 = way_m.squaredNorm();
+    // The tip of a spine looks down as the sole beside it does, but deeper in the sand.
+    const bool level = std::abs(way_m.dot(clusters[i].seed_normal)) < kLevel * reach_m;
+    if (level && distance_m2 < least_m2 && clusters[i].seed_normal.dot(normal) > kSameNormal) {
+      nearest = i, least_m2 = distance_m2;
+    }
+  }
+  return nearest;
+}
 
 }  // namespace
 
@@ -50,40 +74,22 @@ std::vector<RftFacet> make_facets(const TriangleMesh& mesh, double size_m) {
   std::vector<Triangle> pieces;
   for (const auto& t : mesh.triangles) {
     const auto corner = [&](int k) { return mesh.vertices_m[std::size_t(t[std::size_t(k)])]; };
-    cut({corner(0), corner(1), corner(2)}, size_m, pieces);
+    cut({corner(0), corner(1), corner(2)}, 0.5 * size_m, pieces);
   }
-  std::vector<Sum> sums;
-  std::map<std::array<long, 3>, std::vector<std::size_t>> cells;
+  std::vector<Cluster> clusters;
   for (const Triangle& t : pieces) {
     const Eigen::Vector3d vector_area = 0.5 * (t.b - t.a).cross(t.c - t.a);
-    const double area = vector_area.norm();
-    if (!(area > 0)) continue;
-    const Eigen::Vector3d normal = vector_area / area, centre = (t.a + t.b + t.c) / 3;
-    // Half a cell aside: soles and sides lie on round numbers.
-    const auto cell = [&](int k) { return std::lround(std::floor(centre[k] / size_m + 0.5)); };
-    std::vector<std::size_t>& here = cells[{cell(0), cell(1), cell(2)}];
-    std::size_t index = sums.size();
-    for (const std::size_t i : here) {
-      if (sums[i].first_normal.dot(normal) > kSameNormal) {
-        index = i;
-        break;
-      }
-    }
-    if (index == sums.size()) {
-      here.push_back(index);
-      sums.push_back({});
-      sums.back().first_normal = normal;
-    }
-    Sum& sum = sums[index];
-    sum.vector_area_m2 += vector_area;
-    sum.moment_m3 += area * centre;
-    sum.area_m2 += area;
+    if (!(vector_area.norm() > 0)) continue;
+    const Eigen::Vector3d normal = vector_area.normalized(), centre = (t.a + t.b + t.c) / 3;
+    const std::size_t found = find_cluster(clusters, centre, normal, 0.5 * size_m);
+    if (found == clusters.size()) clusters.push_back({centre, normal});
+    clusters[found].add(vector_area, centre);
   }
-  if (sums.empty()) throw std::invalid_argument("a body on fast soil has no surface");
+  if (clusters.empty()) throw std::invalid_argument("a body on fast soil has no surface");
   std::vector<RftFacet> facets;
-  for (const Sum& s : sums) {
-    const double area = s.vector_area_m2.norm();
-    facets.push_back({s.moment_m3 / s.area_m2, s.vector_area_m2 / area, area});
+  for (const Cluster& c : clusters) {
+    const double area = c.vector_area_m2.norm();
+    facets.push_back({c.moment_m3 / c.area_m2, c.vector_area_m2 / area, area});
   }
   return facets;
 }

@@ -14,9 +14,9 @@ struct RftFacet {
   double area_m2 = 0;
 };
 
-/// Triangles longer than size_m are cut; pieces in one cell of a grid of that size whose normals
-/// are within 20 degrees become one facet. Vector areas are kept, so that a uniform pressure on a
-/// closed mesh gives no force. The order follows the mesh's.
+/// Triangles are cut to half of size_m; pieces within half of size_m of each other whose normals
+/// are within 20 degrees become one facet, if they lie in about one plane. Vector areas are kept,
+/// so that a uniform pressure on a closed mesh gives no force. The order follows the mesh's.
 /// @throws std::invalid_argument where the mesh has no area
 std::vector<RftFacet> make_facets(const TriangleMesh& mesh, double size_m);
 

@@ -29,8 +29,9 @@ namespace hoof::sim::rft {
 /// @param n, v unit vectors
 Eigen::Vector3d generic_alpha(const Eigen::Vector3d& n, const Eigen::Vector3d& v);
 
-/// alpha of a leading facet (n . v > 0) with friction mu_surf; zero else. Never pulls at the facet
-/// (alpha . n <= 0) and never drives it (tangential part against v), so it never gives work.
+/// alpha of a leading facet (n . v above rounding) with friction mu_surf; zero else. Never pulls at
+/// the facet (alpha . n <= 0) and never drives it (tangential part against v), so it never gives
+/// work.
 Eigen::Vector3d alpha(const Eigen::Vector3d& n, const Eigen::Vector3d& v, double mu_surf);
 
 /// alpha_z of a flat plate going straight down, all coefficients summed.

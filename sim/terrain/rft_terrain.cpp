@@ -47,8 +47,7 @@ void RftTerrain::update(Contact& contact, const Eigen::Vector3d& normal_W, doubl
   const double size_m = damped_m.norm();
   if (size_m > 0 && normal_W.dot(damped_m) > 0) {
     const Eigen::Vector3d full_Pa =
-        scale_Pa(depth_m) *
-        rft::alpha(normal_W, damped_m / size_m, settings_.surface_friction);
+        scale_Pa(depth_m) * rft::alpha(normal_W, damped_m / size_m, settings_.surface_friction);
     contact.stress_Pa = std::min(1.0, size_m / u_y_m) * full_Pa;
     most_J_m2 = 0.5 * full_Pa.norm() * u_m.squaredNorm() / u_y_m;
   }
@@ -60,8 +59,7 @@ void RftTerrain::update(Contact& contact, const Eigen::Vector3d& normal_W, doubl
   if (given_now > 0 && given_now > left_J_m2) {
     contact.stress_Pa *= std::max(0.0, left_J_m2 / given_now);
   }
-  contact.stored_J_m2 =
-      std::min(left_J_m2 - 0.5 * contact.stress_Pa.dot(moved_m), most_J_m2);
+  contact.stored_J_m2 = std::min(left_J_m2 - 0.5 * contact.stress_Pa.dot(moved_m), most_J_m2);
 }
 
 void RftTerrain::advance(double interval_s, std::span<const BodyMotion> motions,
@@ -71,20 +69,21 @@ void RftTerrain::advance(double interval_s, std::span<const BodyMotion> motions,
     const Pose& end = motions[body].end;
     const Eigen::Matrix3d R_start = start.q_WB.toRotationMatrix();
     const Eigen::Matrix3d R_end = end.q_WB.toRotationMatrix();
+    const Eigen::Matrix3d turned = R_end - R_start;
+    const Eigen::Vector3d shifted_m = end.p_WB_m - start.p_WB_m;
     const double highest_m = settings_.surface_height_m - end.p_WB_m.z();
     Wrench sum;
     for (Contact& contact : bodies_[body]) {
       const Eigen::Vector3d& centre_B = contact.facet.centre_B_m;
       const double depth_m = highest_m - R_end.row(2).dot(centre_B);
       if (depth_m <= 0) {
-        // Out of the sand nothing is kept: debts neither.
-        contact.displacement_m.setZero();
-        contact.stress_Pa.setZero();
-        contact.stored_J_m2 = 0;
+        // Out of the sand nothing is kept.
+        if (contact.in_sand) contact = {contact.facet};
         continue;
       }
+      contact.in_sand = true;
       const Eigen::Vector3d arm = R_end * centre_B;
-      const Eigen::Vector3d moved_m = end.p_WB_m + arm - start.p_WB_m - R_start * centre_B;
+      const Eigen::Vector3d moved_m = shifted_m + turned * centre_B;
       const Eigen::Vector3d before_Pa = contact.stress_Pa;
       update(contact, R_end * contact.facet.normal_B, depth_m, moved_m, interval_s);
       const double area_m2 = contact.facet.area_m2;

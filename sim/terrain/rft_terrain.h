@@ -44,6 +44,7 @@ class RftTerrain final : public Terrain {
  private:
   struct Contact {
     RftFacet facet;
+    bool in_sand = false;
     /// u, world frame.
     Eigen::Vector3d displacement_m = Eigen::Vector3d::Zero();
     Eigen::Vector3d stress_Pa = Eigen::Vector3d::Zero();

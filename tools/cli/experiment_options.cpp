@@ -231,10 +231,12 @@ void add_experiment_options(CLI::App& command, ExperimentOptions& options, Exper
   command.add_option("--bed", options.bed, "Preset demo, bench or paper, or a file")
       ->type_name("PRESET|FILE")
       ->check(name_or_file(kBeds, ""));
-  command.add_option("--terrain", options.terrain, "Grains (dem), a fast law (rft) or a rigid plane")
+  command
+      .add_option("--terrain", options.terrain, "Grains (dem), a fast law (rft) or a rigid plane")
       ->type_name("dem|rft|rigid")
       ->check(one_of({"dem", "rft", "rigid"}));
-  command.add_option("--soil", options.soil, "Of --terrain rft: demo, or a file of hoof terrain fit")
+  command
+      .add_option("--soil", options.soil, "Of --terrain rft: demo, or a file of hoof terrain fit")
       ->type_name("NAME|FILE")
       ->check(name_or_file({"demo"}, ".toml"));
   command.add_option("--bus", options.bus, "CAN interface, e.g. vcan0 [in process]")

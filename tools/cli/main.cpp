@@ -68,7 +68,7 @@ int main(int argc, char** argv) {
   app.name("hoof");
   app.footer(
       "tools/hoof test [--full] [ctest arguments] builds and runs all tests.\n"
-      "tools/hoof benchmark dem|boundary|trajectory measures speed.\n"
+      "tools/hoof benchmark dem|boundary|terrain|trajectory measures speed.\n"
       "tools/hoof firmware build|size|flash makes, measures and flashes the board's image.\n"
       "hoof COMMAND --help shows a command's flags and examples.");
   app.require_subcommand(1);

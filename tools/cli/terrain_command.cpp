@@ -15,7 +15,8 @@ void add_fit(CLI::App& parent, Invocation& invocation) {
           ->type_name("PUSHES.csv")
           ->check(CLI::ExistingFile);
   const auto of_sand = [&](CLI::Option* option) { return option->excludes(from); };
-  of_sand(command->add_option("--bed", options->bed.bed, "demo, bench, paper, or a TOML file [demo]"))
+  of_sand(
+      command->add_option("--bed", options->bed.bed, "demo, bench, paper, or a TOML file [demo]"))
       ->type_name("NAME|FILE.toml");
   of_sand(command->add_option("--seed", options->bed.seed, "Of the bed"))
       ->type_name("S")
@@ -23,7 +24,7 @@ void add_fit(CLI::App& parent, Invocation& invocation) {
   of_sand(command->add_option("--threads", options->bed.threads, "Of the sand solver, 1..1024"))
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
-  of_sand(command->add_option("--speed", options->speed_m_s, "Of the plates, 0.01..1 m/s [0.2]"))
+  of_sand(command->add_option("--speed", options->speed_m_s, "Of the plates, 0.01..1 m/s [0.3]"))
       ->type_name("M_PER_S")
       ->check(CLI::Range(0.01, 1.0));
   of_sand(command->add_option("--scale", options->scale, "Size of the plates, 0.05..5 [1]"))
@@ -33,9 +34,7 @@ void add_fit(CLI::App& parent, Invocation& invocation) {
                               "Any setting of bed or materials, e.g. --set bed.depth_mm=100"))
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  command
-      ->add_option("--law", options->law,
-                   "Pressure over depth: linear (3D-RFT's own) or bekker")
+  command->add_option("--law", options->law, "Pressure over depth: linear (3D-RFT's own) or bekker")
       ->type_name("linear|bekker")
       ->check(CLI::IsMember({"linear", "bekker"}))
       ->capture_default_str();
@@ -47,7 +46,7 @@ void add_fit(CLI::App& parent, Invocation& invocation) {
       ->capture_default_str();
   command->add_flag("--quiet", options->quiet, "Show no progress");
   command->footer(
-      "18 pushes, a third of them held out. Finished ones are kept: after Ctrl-C the same command\n"
+      "15 pushes, a third of them held out. Finished ones are kept: after Ctrl-C the same command\n"
       "goes on where it was.\n"
       "Examples:\n"
       "  hoof terrain fit --threads 2                    coarse grains, minutes\n"
@@ -65,7 +64,8 @@ void add_show(CLI::App& parent, Invocation& invocation) {
     double depth_mm = 30;
   };
   auto options = std::make_shared<Lengths>();
-  CLI::App* command = parent.add_subcommand("show", "Pressure and force of a flat plate over depth");
+  CLI::App* command =
+      parent.add_subcommand("show", "Pressure and force of a flat plate over depth");
   command->add_option("--soil", options->show.soil, "demo, or a file of hoof terrain fit")
       ->type_name("NAME|FILE.toml")
       ->capture_default_str();

@@ -23,7 +23,7 @@ struct RunSettings {
   std::string kind;    // "sinkage" or "traction"
   std::string foot_name;
   std::string terrain;  // "dem", "rft" or "rigid"
-  std::string bus;  // "in_process", or SocketCAN interfaces
+  std::string bus;      // "in_process", or SocketCAN interfaces
   std::uint64_t seed = 0;
   int threads = 1;
 

@@ -92,8 +92,8 @@ std::string soil_line(const RunSettings& run) {
   std::snprintf(text, sizeof text,
                 "fast soil '%s' (%s), fitted to %s: off its pushes by %.0f %%, off those held "
                 "out by %.0f %%",
-                run.rft.name.c_str(), hex(run.rft.hash()).c_str(),
-                run.rft.fitted_to.c_str(), 100 * run.rft.fit_error, 100 * run.rft.held_out_error);
+                run.rft.name.c_str(), hex(run.rft.hash()).c_str(), run.rft.fitted_to.c_str(),
+                100 * run.rft.fit_error, 100 * run.rft.held_out_error);
   return text;
 }
 

@@ -27,7 +27,8 @@ struct TractionPeaks {
   }
 };
 
-/// One line for the user: which fast soil a run was on, and how far it is from what it was fitted to.
+/// One line for the user: which fast soil a run was on, and how far it is from what it was fitted
+/// to.
 std::string soil_line(const RunSettings& run);
 
 TractionPeaks find_peaks(const std::vector<ForceSample>& forces);

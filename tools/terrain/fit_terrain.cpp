@@ -60,6 +60,7 @@ class Pushing {
   std::vector<Push> run() {
     const std::vector<PushCase> plates = standard_pushes(options_.scale);
     for (const PushCase& plate : plates) {
+      require_room(plate, bed_.bed);
       if (!fs::exists(file_of(plate))) total_ += steps_of(plate);
     }
     std::vector<Push> pushes;
@@ -80,19 +81,20 @@ class Pushing {
   fs::path file_of(const PushCase& plate) const {
     std::string name = plate.name;
     std::replace(name.begin(), name.end(), ' ', '_');
-    return cases_ / (name + "-" + hash_of(push_key(plate, bed_.key(), options_.speed_m_s)) + ".csv");
+    return cases_ /
+           (name + "-" + hash_of(push_key(plate, bed_.key(), options_.speed_m_s)) + ".csv");
   }
 
   Push measure(const PushCase& plate) {
     const double steps = steps_of(plate);
     try {
       settle();
-      const Push push = push_in_sand(plate, bed_.bed, bed_.materials, state_, options_.speed_m_s,
-                                     bed_.threads, [&](double share) {
-                                       progress_.update((done_ + share * steps) / total_,
-                                                        plate.name);
-                                       return !stop_.requested();
-                                     });
+      const Push push =
+          push_in_sand(plate, bed_.bed, bed_.materials, state_, options_.speed_m_s, bed_.threads,
+                       [&](double share) {
+                         progress_.update((done_ + share * steps) / total_, plate.name);
+                         return !stop_.requested();
+                       });
       done_ += steps;
       return push;
     } catch (const std::invalid_argument&) {
@@ -155,11 +157,10 @@ std::string with_speed(const FitTerrainOptions& options, const ChosenBed& bed) {
 sim::RftTerrainSettings load_soil(const std::string& name_or_file) {
   const bool file = name_or_file.find('/') != std::string::npos || name_or_file.ends_with(".toml");
   sim::Settings settings;
-  settings.merge(
-      sim::Settings::load_file(file ? fs::path(name_or_file)
-                                    : sim::default_config_dir() / "rft_terrain" /
-                                          (name_or_file + ".toml")),
-      "rft_terrain");
+  settings.merge(sim::Settings::load_file(file ? fs::path(name_or_file)
+                                               : sim::default_config_dir() / "rft_terrain" /
+                                                     (name_or_file + ".toml")),
+                 "rft_terrain");
   return sim::read_rft_terrain(sim::Reader(settings).section("rft_terrain"));
 }
 
@@ -179,8 +180,8 @@ void fit_terrain(const FitTerrainOptions& options) {
   } else {
     pushes = read_pushes(options.from);
     soil.name = options.from.stem().string();
-    soil.fitted_to = options.from.filename().string() + " (" +
-                     hash_of(read_file(options.from)) + ")";
+    soil.fitted_to =
+        options.from.filename().string() + " (" + hash_of(read_file(options.from)) + ")";
   }
   const SoilFit fit = fit_soil(pushes, soil);
   fit.soil.validate();

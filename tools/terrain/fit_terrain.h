@@ -13,7 +13,7 @@ struct FitTerrainOptions {
   BedOptions bed;
   std::string law = "linear";  ///< or bekker
   std::string start = "demo";  ///< soil whose other numbers are kept: a preset or a file
-  double speed_m_s = 0.2;      ///< of the pushes
+  double speed_m_s = 0.3;      ///< of the pushes
   double scale = 1;            ///< of the plates
   std::filesystem::path from;  ///< pushes measured before; no sand is moved
   std::filesystem::path out = "runs/terrain-fit";

@@ -40,7 +40,7 @@ enum class PushPhase { kInsert, kPush, kBack };
 
 struct PushSample {
   PushPhase phase = PushPhase::kPush;
-  double way_m = 0;                 ///< in the middle of the interval, since the phase began
+  double way_m = 0;                  ///< in the middle of the interval, since the phase began
   Eigen::Vector3d force_N{0, 0, 0};  ///< of the sand on the plate, mean over the interval
 };
 

@@ -10,6 +10,13 @@
 namespace hoof::tools {
 namespace {
 
+/// Whole bed steps of one interval of a leg.
+int steps_of(const PushLeg& leg, double dt_s, double speed_m_s) {
+  return std::max(1, int(std::lround(leg.way_m.norm() / leg.intervals / speed_m_s / dt_s)));
+}
+
+}  // namespace
+
 void require_room(const PushCase& plate, const sim::BedSettings& bed) {
   const Eigen::Vector2d half = plate.half_extent_m();
   const Eigen::Vector2d room(0.5 * bed.box_length_m - half.x(), 0.5 * bed.box_width_m - half.y());
@@ -25,13 +32,6 @@ void require_room(const PushCase& plate, const sim::BedSettings& bed) {
                 plate.name.c_str(), have_m * 1e3, bed.name.c_str(), least_m * 1e3);
   throw std::invalid_argument(text);
 }
-
-/// Whole bed steps of one interval of a leg.
-int steps_of(const PushLeg& leg, double dt_s, double speed_m_s) {
-  return std::max(1, int(std::lround(leg.way_m.norm() / leg.intervals / speed_m_s / dt_s)));
-}
-
-}  // namespace
 
 double push_steps(const PushCase& plate, const sim::BedSettings& bed, double speed_m_s) {
   double steps = 0;

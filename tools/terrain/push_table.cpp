@@ -46,7 +46,8 @@ std::vector<std::string> columns() {
 
 class TableReader {
  public:
-  explicit TableReader(const std::filesystem::path& file) : file_(file), table_(read_samples(file)) {
+  explicit TableReader(const std::filesystem::path& file)
+      : file_(file), table_(read_samples(file)) {
     rows_ = column("case_name").texts.size();
     if (rows_ == 0) throw UserError(file_.string() + ": holds no pushes");
   }
@@ -61,8 +62,9 @@ class TableReader {
     const double value = column(name).numbers[row];
     if (value >= min && value <= max) return value;
     fail(row, name, format_number(value),
-         max == std::numeric_limits<double>::max() ? std::string("a finite number")
-                         : "in " + format_number(min) + " ... " + format_number(max));
+         max == std::numeric_limits<double>::max()
+             ? std::string("a finite number")
+             : "in " + format_number(min) + " ... " + format_number(max));
   }
 
   [[noreturn]] void fail(std::size_t row, const char* name, const std::string& value,

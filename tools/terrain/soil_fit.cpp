@@ -12,8 +12,8 @@
 namespace hoof::tools {
 namespace {
 
-/// Steps of the law within one sample: a twentieth of the yield displacement of coarse sand.
-constexpr int kSteps = 10;
+/// Steps of the law within one sample: 0.1 mm of a push.
+constexpr int kSteps = 5;
 
 double dot(const std::vector<Eigen::Vector3d>& a, const std::vector<Eigen::Vector3d>& b) {
   double sum = 0;
@@ -21,13 +21,29 @@ double dot(const std::vector<Eigen::Vector3d>& a, const std::vector<Eigen::Vecto
   return sum;
 }
 
-/// The samples of the push itself, without the way back.
 std::vector<Eigen::Vector3d> forces_of(const Push& push) {
   std::vector<Eigen::Vector3d> forces;
-  for (const PushSample& s : push.samples) {
-    if (s.phase == PushPhase::kPush) forces.push_back(s.force_N);
-  }
+  for (const PushSample& s : push.samples) forces.push_back(s.force_N);
   return forces;
+}
+
+/// Where a function of one peak downward is least, to 1e-3 of the range.
+template <typename Function>
+double golden_section(double low, double high, const Function& f) {
+  constexpr double kGolden = 0.6180339887498949;
+  const double end = 1e-3 * (high - low);
+  double p = high - kGolden * (high - low), q = low + kGolden * (high - low);
+  double at_p = f(p), at_q = f(q);
+  while (high - low > end) {
+    if (at_p < at_q) {
+      high = q, q = p, at_q = at_p;
+      p = high - kGolden * (high - low), at_p = f(p);
+    } else {
+      low = p, p = q, at_p = at_q;
+      q = low + kGolden * (high - low), at_q = f(q);
+    }
+  }
+  return 0.5 * (low + high);
 }
 
 sim::RftTerrainSettings unit_linear(sim::RftTerrainSettings soil) {
@@ -42,38 +58,6 @@ sim::RftTerrainSettings unit_bekker(sim::RftTerrainSettings soil, double exponen
   soil.bekker_k_c_N_m = 0;
   soil.bekker_exponent = exponent;
   return soil;
-}
-
-/// Half of the load is gone after half of the yield displacement.
-void fit_yield(const std::vector<Push>& pushes, sim::RftTerrainSettings& soil) {
-  std::vector<double> found_m;
-  for (const Push& push : pushes) {
-    if (push.plate.held_out) continue;
-    Eigen::Vector3d load_N(0, 0, 0);
-    double before_m = 0, before_N = 0;
-    for (const PushSample& s : push.samples) {
-      if (s.phase == PushPhase::kPush) {
-        load_N = s.force_N;
-        before_N = load_N.norm();
-        continue;
-      }
-      const double now_N = s.force_N.dot(load_N.normalized()), half_N = 0.5 * load_N.norm();
-      if (now_N <= half_N) {
-        const double share = (before_N - half_N) / (before_N - now_N);
-        found_m.push_back(2 * (before_m + share * (s.way_m - before_m)));
-        break;
-      }
-      before_m = s.way_m, before_N = now_N;
-    }
-  }
-  if (found_m.empty()) return;
-  double mean_m = 0, square_m2 = 0;
-  for (const double m : found_m) mean_m += m / double(found_m.size());
-  for (const double m : found_m) square_m2 += (m - mean_m) * (m - mean_m);
-  const double n = double(found_m.size());
-  soil.yield_displacement_m = {mean_m, n > 1 ? std::sqrt(square_m2 / (n - 1)) : 0,
-                               "twice the way back that halves the load, of " +
-                                   std::to_string(found_m.size()) + " pushes"};
 }
 
 struct Weighed {
@@ -99,27 +83,32 @@ std::vector<Weighed> weigh(const std::vector<Push>& pushes) {
 void predict_units(std::vector<Weighed>& all, const sim::RftTerrainSettings& unit) {
   for (Weighed& w : all) {
     w.unit = predict(w.push->plate, unit);
-    if (w.unit.size() < w.measured.size()) {
+    if (w.unit.size() != w.measured.size()) {
       throw UserError("'" + w.push->plate.name + "' has " + std::to_string(w.measured.size()) +
                       " samples, must have " + std::to_string(w.unit.size()) +
-                      ": one per 0.5 mm of its push");
+                      ": one per 0.5 mm of its push, then one per 0.05 mm of its way back");
     }
-    w.unit.resize(w.measured.size());
   }
 }
 
-double linear_xi(const std::vector<Weighed>& all) {
+struct Linear {
+  double xi = 0, left = 0;  // left: mean of the squared ratios
+};
+
+Linear linear_xi(const std::vector<Weighed>& all) {
   double fg = 0, gg = 0;
+  int n = 0;
   for (const Weighed& w : all) {
     if (w.push->plate.held_out) continue;
     fg += dot(w.measured, w.unit) / w.square_N2;
     gg += dot(w.unit, w.unit) / w.square_N2;
+    ++n;
   }
   if (!(fg > 0) || !(gg > 0)) {
     throw UserError("the pushes do not resist the motion: the scale that fits them best is " +
                     format_number(gg > 0 ? fg / gg : 0) + " N/m^3, must be above 0");
   }
-  return fg / gg;
+  return {fg / gg, 1 - fg * fg / gg / n};
 }
 
 struct Moduli {
@@ -142,6 +131,28 @@ Moduli bekker_moduli(const std::vector<Weighed>& all) {
   return {k[0], k[1], (n - 2 * b.dot(k) + k.dot(a * k)) / n};
 }
 
+/// Between a hundredth and ten times the thickness of the plates, on a scale of ratios.
+double fit_yield_m(std::vector<Weighed>& all, const sim::RftTerrainSettings& soil) {
+  const bool linear = soil.pressure_law == sim::PressureLaw::kLinear;
+  double thickness_m = 0;
+  for (const Weighed& w : all) thickness_m = std::max(thickness_m, w.push->plate.thickness_m);
+  const double low = std::log(0.01 * thickness_m), high = std::log(10 * thickness_m);
+  const double best = golden_section(low, high, [&](double log_m) {
+    sim::RftTerrainSettings unit =
+        linear ? unit_linear(soil) : unit_bekker(soil, soil.bekker_exponent);
+    unit.yield_displacement_m.value = std::exp(log_m);
+    predict_units(all, unit);
+    return linear ? linear_xi(all).left : bekker_moduli(all).left;
+  });
+  const double margin = 0.01 * (high - low);
+  if (best < low + margin || best > high - margin) {
+    throw UserError("the yield displacement runs to " + format_number(std::exp(best) * 1e3) +
+                    " mm, must stay inside " + format_number(std::exp(low) * 1e3) + " ... " +
+                    format_number(std::exp(high) * 1e3) + " mm: the pushes do not tell it");
+  }
+  return std::exp(best);
+}
+
 void require_two_widths(const std::vector<Push>& pushes) {
   std::set<double> widths;
   for (const Push& push : pushes) {
@@ -154,26 +165,15 @@ void require_two_widths(const std::vector<Push>& pushes) {
   }
 }
 
-/// Golden section over the exponent; the moduli follow.
+/// The moduli follow from the exponent.
 void fit_bekker(std::vector<Weighed>& all, sim::RftTerrainSettings& soil) {
-  constexpr double kLow = 0.2, kHigh = 2.5, kGolden = 0.6180339887498949;
+  constexpr double kLow = 0.2, kHigh = 2.5;
   const auto moduli_at = [&](double exponent) {
     predict_units(all, unit_bekker(soil, exponent));
     return bekker_moduli(all);
   };
-  double low = kLow, high = kHigh;
-  double p = high - kGolden * (high - low), q = low + kGolden * (high - low);
-  double at_p = moduli_at(p).left, at_q = moduli_at(q).left;
-  while (high - low > 1e-4) {
-    if (at_p < at_q) {
-      high = q, q = p, at_q = at_p;
-      p = high - kGolden * (high - low), at_p = moduli_at(p).left;
-    } else {
-      low = p, p = q, at_p = at_q;
-      q = low + kGolden * (high - low), at_q = moduli_at(q).left;
-    }
-  }
-  const double exponent = 0.5 * (low + high);
+  const double exponent = golden_section(
+      kLow, kHigh, [&](double exponent_tried) { return moduli_at(exponent_tried).left; });
   if (exponent < kLow + 0.01 || exponent > kHigh - 0.01) {
     throw UserError("Bekker's exponent runs to " + format_number(exponent) +
                     ", must stay inside 0.2 ... 2.5: the pushes do not tell it");
@@ -206,7 +206,6 @@ CaseError error_of(const Weighed& w, const sim::RftTerrainSettings& soil) {
   sim::RftTerrainSettings here = soil;
   here.bekker_width_m = w.push->plate.smaller_width_m();
   std::vector<Eigen::Vector3d> left = predict(w.push->plate, here);
-  left.resize(w.measured.size());
   for (std::size_t i = 0; i < left.size(); ++i) left[i] = w.measured[i] - left[i];
   return {w.push->plate.name, w.push->plate.held_out, std::sqrt(dot(left, left) / w.square_N2),
           std::sqrt(w.square_N2 / double(w.measured.size())),
@@ -218,6 +217,8 @@ CaseError error_of(const Weighed& w, const sim::RftTerrainSettings& soil) {
 std::vector<Eigen::Vector3d> predict(const PushCase& plate, const sim::RftTerrainSettings& soil) {
   sim::RftTerrainSettings slow = soil;
   slow.damping_s = 0;
+  // Fine, so that what is fitted is the law and not the facets of a foot.
+  slow.facet_size_m = 2 * plate.thickness_m;
   sim::RftTerrain terrain(slow);
   sim::BodyMotion motion;
   motion.start = motion.end = {plate.start_m(), plate.q_WB()};
@@ -234,31 +235,39 @@ std::vector<Eigen::Vector3d> predict(const PushCase& plate, const sim::RftTerrai
         terrain.advance(1, {&motion, 1}, {&wrench, 1});  // without a damper time is nothing
         sum += wrench.f_W_N;
       }
-      if (leg.phase == PushPhase::kPush) forces.push_back(sum / kSteps);
+      if (leg.phase != PushPhase::kInsert) forces.push_back(sum / kSteps);
     }
   }
   return forces;
 }
 
 SoilFit fit_soil(const std::vector<Push>& pushes, const sim::RftTerrainSettings& start) {
-  const auto fitted = std::count_if(pushes.begin(), pushes.end(),
-                                    [](const Push& p) { return !p.plate.held_out; });
+  const auto fitted =
+      std::count_if(pushes.begin(), pushes.end(), [](const Push& p) { return !p.plate.held_out; });
   if (fitted < 2) {
     throw UserError("there are " + std::to_string(fitted) +
                     " pushes to fit, must be at least 2 that are not held out");
   }
   SoilFit fit;
   fit.soil = start;
-  fit_yield(pushes, fit.soil);
   std::vector<Weighed> all = weigh(pushes);
-  if (start.pressure_law == sim::PressureLaw::kBekker) {
+  fit.soil.yield_displacement_m.sigma = 0;
+  fit.soil.yield_displacement_m.source = "fitted together with the pressure to the same pushes";
+  if (start.pressure_law == sim::PressureLaw::kLinear) {
+    fit.soil.yield_displacement_m.value = fit_yield_m(all, fit.soil);
+  } else {
     require_two_widths(pushes);
-    fit_bekker(all, fit.soil);
+    // In turns: the two numbers hardly touch.
+    for (int round = 0; round < 2; ++round) {
+      fit_bekker(all, fit.soil);
+      fit.soil.yield_displacement_m.value = fit_yield_m(all, fit.soil);
+    }
   }
   predict_units(all, unit_linear(fit.soil));
-  const double xi = linear_xi(all);
-  fit.soil.xi_n_N_m3 = {xi, 0, "least squares over " + std::to_string(fitted) +
-                                   " pushes; sigma is the spread between them"};
+  const double xi = linear_xi(all).xi;
+  fit.soil.xi_n_N_m3 = {
+      xi, 0,
+      "least squares over " + std::to_string(fitted) + " pushes; sigma is the spread between them"};
   for (const Weighed& w : all) fit.cases.push_back(error_of(w, fit.soil));
   fit.soil.xi_n_N_m3.sigma = spread_of_xi(fit.cases, xi);
   fit.fit_error = fit.soil.fit_error = root_mean_square(fit.cases, false);

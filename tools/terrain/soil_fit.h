@@ -15,8 +15,8 @@ std::vector<Eigen::Vector3d> predict(const PushCase& plate, const sim::RftTerrai
 struct CaseError {
   std::string name;
   bool held_out = false;
-  double ratio = 0;     ///< rms of measured less predicted over rms of measured, of the push
-  double force_N = 0;   ///< rms of measured
+  double ratio = 0;      ///< rms of measured less predicted over rms of measured, of the push
+  double force_N = 0;    ///< rms of measured
   double xi_n_N_m3 = 0;  ///< the scale that this push alone asks for
 };
 
@@ -28,7 +28,7 @@ struct SoilFit {
 };
 
 /// Fits xi_n or Bekker's k_c, k_phi and n to the pushes that are not held out, each weighted by its
-/// own mean square force, and the yield displacement to the ways back.
+/// own mean square force, with the yield displacement that fits them best (3D-RFT's scale given).
 /// @param start all that is not fitted, and the law
 /// @throws UserError where the pushes do not determine the numbers, with the reason
 SoilFit fit_soil(const std::vector<Push>& pushes, const sim::RftTerrainSettings& start);

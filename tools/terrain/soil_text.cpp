@@ -31,7 +31,8 @@ std::string soil_toml(const sim::RftTerrainSettings& soil, const std::string& co
   line("#   " + command);
   line("name = " + quoted(soil.name));
   number("surface_height_mm", soil.surface_height_m * 1e3);
-  line("# \"linear\": xi_n times depth. \"bekker\": (k_c / b + k_phi) (z / 1 m)^n of a flat plate.");
+  line(
+      "# \"linear\": xi_n times depth. \"bekker\": (k_c / b + k_phi) (z / 1 m)^n of a flat plate.");
   line("pressure_law = " + quoted(linear ? "linear" : "bekker"));
   line("xi_n_N_m3 = " + measured(soil.xi_n_N_m3, 1));
   if (linear) line("# Not fitted; not used with the linear law.");
@@ -54,8 +55,9 @@ std::string soil_toml(const sim::RftTerrainSettings& soil, const std::string& co
 }
 
 std::string fit_table(const SoilFit& fit) {
-  std::string table = "push                                            set       rms force   error"
-                      "   own xi_n\n";
+  std::string table =
+      "push                                            set       rms force   error"
+      "   own xi_n\n";
   char line[200];
   for (const CaseError& c : fit.cases) {
     std::snprintf(line, sizeof line, "%-46s  %-8s %8.1f N %6.1f %% %8.3g N/m3\n", c.name.c_str(),
@@ -74,7 +76,8 @@ std::string fit_table(const SoilFit& fit) {
                 fit.soil.yield_displacement_m.value * 1e3,
                 fit.soil.yield_displacement_m.source.c_str());
   table += line;
-  std::snprintf(line, sizeof line, "error: %.1f %% on the pushes fitted, %.1f %% on those held out\n",
+  std::snprintf(line, sizeof line,
+                "error: %.1f %% on the pushes fitted, %.1f %% on those held out\n",
                 100 * fit.fit_error, 100 * fit.held_out_error);
   return table + line;
 }

@@ -39,10 +39,10 @@ TEST_CASE("the law has the values that the published coefficients give") {
     double beta_deg, gamma_deg, x, z;
   };
   // Evaluated apart from this code, in another language, from the tables and the source's angles.
-  for (const Case& c : {Case{30, 90, -0.140, 1.045}, Case{-30, 90, 0.140, 1.045},
-                        Case{0, 60, -0.155, 0.988}, Case{30, 30, -0.387, 0.689},
-                        Case{60, 0, -0.358, 0.249}, Case{90, 30, -0.284, 0.116},
-                        Case{-30, 60, -0.025, 0.822}}) {
+  for (const Case& c :
+       {Case{30, 90, -0.140, 1.045}, Case{-30, 90, 0.140, 1.045}, Case{0, 60, -0.155, 0.988},
+        Case{30, 30, -0.387, 0.689}, Case{60, 0, -0.358, 0.249}, Case{90, 30, -0.284, 0.116},
+        Case{-30, 60, -0.025, 0.822}}) {
     CAPTURE(c.beta_deg, c.gamma_deg);
     const Vector3d a = rft::generic_alpha(normal(c.beta_deg), velocity(c.gamma_deg));
     CHECK(a.x() == Approx(c.x).margin(6e-4));  // the values above have three decimals
@@ -83,8 +83,7 @@ TEST_CASE("resistance is against the motion, in all directions alike") {
     const Vector3d a = rft::alpha(n, v, 0.6);
     CHECK((rft::alpha(yaw * n, yaw * v, 0.6) - yaw * a).norm() < 1e-12);
     const Vector3d mirror(1, -1, 1);
-    CHECK((rft::alpha(mirror.cwiseProduct(n), mirror.cwiseProduct(v), 0.6) -
-           mirror.cwiseProduct(a))
+    CHECK((rft::alpha(mirror.cwiseProduct(n), mirror.cwiseProduct(v), 0.6) - mirror.cwiseProduct(a))
               .norm() < 1e-12);
     CHECK(a.dot(v) <= 0);
     CHECK(a.dot(n) <= 0);

@@ -41,10 +41,9 @@ TEST_CASE("a flat plate straight down meets scale times area times depth") {
     Stroke stroke(terrain, sheet(0.1, 0.05), at(0, 0.001));
     for (const double depth_m : {0.002, 0.01, 0.03}) {
       const Wrench w = stroke.by({0, 0, -depth_m - stroke.pose().p_WB_m.z()});
-      const double expected_N =
-          law == PressureLaw::kLinear
-              ? 5e5 * kArea_m2 * depth_m * rft::flat_plate_alpha()
-              : kArea_m2 * (1e3 / 0.05 + 2e5) * std::pow(depth_m, 0.7);
+      const double expected_N = law == PressureLaw::kLinear
+                                    ? 5e5 * kArea_m2 * depth_m * rft::flat_plate_alpha()
+                                    : kArea_m2 * (1e3 / 0.05 + 2e5) * std::pow(depth_m, 0.7);
       CAPTURE(int(law), depth_m);
       CHECK(w.f_W_N.z() == Approx(expected_N));
       CHECK(w.f_W_N.head<2>().norm() < 1e-9 * expected_N);
@@ -67,8 +66,8 @@ TEST_CASE("nothing pulls: no force above the sand, none on the way up") {
 }
 
 TEST_CASE("horizontal force is against the motion in all four directions") {
-  for (const Vector3d& way : {Vector3d(0.02, 0, 0), Vector3d(-0.02, 0, 0), Vector3d(0, 0.02, 0),
-                             Vector3d(0, -0.02, 0)}) {
+  for (const Vector3d& way :
+       {Vector3d(0.02, 0, 0), Vector3d(-0.02, 0, 0), Vector3d(0, 0.02, 0), Vector3d(0, -0.02, 0)}) {
     RftTerrain terrain(soil());
     Stroke stroke(terrain, box({0.05, 0.05, 0.02}), at(0, 0.011));
     stroke.by({0, 0, -0.026});
@@ -220,8 +219,9 @@ TEST_CASE("the same path gives the same bits, and settings that cannot be are na
   s = soil();
   s.pressure_law = PressureLaw::kBekker;
   s.bekker_k_c_N_m = -1e5;
-  CHECK_THROWS_WITH(RftTerrain(s),
-                    "bekker_k_c_N_m / bekker_width_m + bekker_k_phi_Pa = -1.8e+06: must be above 0");
+  CHECK_THROWS_WITH(
+      RftTerrain(s),
+      "bekker_k_c_N_m / bekker_width_m + bekker_k_phi_Pa = -1.8e+06: must be above 0");
 }
 
 TEST_CASE("the shipped soils are read, and a slip in one is named with its place") {

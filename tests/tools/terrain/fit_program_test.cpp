@@ -38,8 +38,8 @@ TEST_CASE("a fit from a table gives the same bytes twice, and both tests run on 
   const fs::path pushes = scratch.path() / "pushes.csv";
   write_synthetic(pushes);
   for (const char* out : {"one", "two"}) {
-    const Outcome fit = run_program({"terrain", "fit", "--quiet", "--from", pushes.string(), "--out",
-                                     (scratch.path() / out).string()});
+    const Outcome fit = run_program({"terrain", "fit", "--quiet", "--from", pushes.string(),
+                                     "--out", (scratch.path() / out).string()});
     CHECK(fit.errors.empty());
     REQUIRE(fit.status == 0);
     CHECK_THAT(fit.output, Catch::Contains("xi_n = 7.5") && Catch::Contains("on those held out"));
@@ -50,8 +50,8 @@ TEST_CASE("a fit from a table gives the same bytes twice, and both tests run on 
   double depth_m = 0;
   for (const std::string experiment : {"sinkage", "traction"}) {
     CAPTURE(experiment);
-    const fs::path first = scratch.path() / (experiment + "-1"), second =
-        scratch.path() / (experiment + "-2");
+    const fs::path first = scratch.path() / (experiment + "-1"),
+                   second = scratch.path() / (experiment + "-2");
     for (const fs::path& out : {first, second}) {
       const Outcome run = run_program({experiment, "--terrain", "rft", "--soil", soil.string(),
                                        "--quiet", "--out", out.string()});
@@ -71,11 +71,13 @@ TEST_CASE("a fit from a table gives the same bytes twice, and both tests run on 
     if (experiment == "sinkage") {
       CHECK(result.at("rested").get<bool>());
       depth_m = result.at("max_depth_m");
-      // 392 N on spines and 142 cm2 of sole in sand of 0.75 N/cm3: some millimetres.
-      CHECK(depth_m > 2e-3);
-      CHECK(depth_m < 60e-3);
+      // A constant 392 N on 142 cm2 of sole in sand of 0.75 N/cm3 needs 35 mm and overshoots to
+      // twice that; rounded edges carry less than flat ones, spines somewhat more.
+      const double sole_m = result.at("max_sole_depth_m");
+      CHECK(sole_m > 0.035);
+      CHECK(sole_m < 1.2 * 0.070);
     } else {
-      CHECK(result.at("fx_peak_N").get<double>() > 5);
+      CHECK(result.at("fx_peak_N").get<double>() > 1);
     }
   }
   // A softer soil lets the foot in deeper.
@@ -90,14 +92,15 @@ TEST_CASE("plates are pushed into grains, kept, and fitted") {
   const ScratchFolder scratch;
   write_file(scratch.path() / "small.toml", kSmallBed);
   const fs::path out = scratch.path() / "fit";
-  const Strings command = {"terrain", "fit",   "--bed",   (scratch.path() / "small.toml").string(),
-                           "--scale", "0.12",  "--speed", "0.5",
-                           "--quiet", "--out", out.string()};
+  const Strings command = {
+      "terrain", "fit",   "--bed",     (scratch.path() / "small.toml").string(),
+      "--scale", "0.12",  "--speed",   "1",
+      "--quiet", "--out", out.string()};
   const Outcome fit = run_program(command);
   CHECK(fit.errors.empty());
   REQUIRE(fit.status == 0);
   CHECK_THAT(fit.output, Catch::EndsWith("\n" + (out / "soil.toml").string() + "\n"));
-  CHECK(hoof::tools::read_pushes(out / "pushes.csv").size() == 18);
+  CHECK(hoof::tools::read_pushes(out / "pushes.csv").size() == 15);
   const std::string bytes = read_file(out / "pushes.csv");
   // One push lost: only that one is made again, with the same bytes.
   fs::remove(fs::directory_iterator(out / "cases")->path());
@@ -109,8 +112,8 @@ TEST_CASE("what hoof terrain cannot do is said in one line") {
   const ScratchFolder scratch;
   const fs::path pushes = scratch.path() / "pushes.csv";
   write_synthetic(pushes);
-  const Outcome wide = run_program({"terrain", "fit", "--quiet", "--scale", "3", "--out",
-                                    (scratch.path() / "fit").string()});
+  const Outcome wide = run_program(
+      {"terrain", "fit", "--quiet", "--scale", "3", "--out", (scratch.path() / "fit").string()});
   CHECK(wide.status == 2);
   CHECK_THAT(wide.errors, Catch::Contains("--scale"));
   CHECK(run_program({"terrain", "fit", "--from", pushes.string(), "--bed", "demo"}).status == 2);
@@ -119,6 +122,6 @@ TEST_CASE("what hoof terrain cannot do is said in one line") {
   CHECK_THAT(soil.errors, Catch::Contains("'mud' is none of demo and no file"));
   const Outcome show = run_program({"terrain", "show", "--plate", "100,50", "--depth", "20"});
   CHECK(show.status == 0);
-  CHECK_THAT(show.output, Catch::Contains("flat plate of 100 x 50 mm") &&
-                              Catch::Contains("20.0 mm"));
+  CHECK_THAT(show.output,
+             Catch::Contains("flat plate of 100 x 50 mm") && Catch::Contains("20.0 mm"));
 }

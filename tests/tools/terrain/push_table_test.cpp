@@ -53,7 +53,7 @@ TEST_CASE("a bad table of pushes is named by file, line, column, value and bound
            Case{"case_name\na\n", ":1: no column "},
            Case{kHeader, ": holds no pushes"},
            Case{kHeader + good + "a,fitted,push,0.1,-6,0.01,0,0,1.5,0,0.02,0,0.001,0,0,3\n",
-                ":3: width_m = -6: must be in 0.0001 ... 10"},
+                ":3: width_m = -6: must be in 1e-04 ... 10"},
            Case{kHeader + good + "a,fitted,push,0.1,0.05,0.01,0,0,1.5,0,0.02,0,0.001,0,0,3\n",
                 ":3: width_m = 0.05: must be 0.06 as in the first row of 'a'"},
            Case{kHeader + good + "b,fitted,push,0.1,0.06,0.01,9,0,1.5,0,0.02,0,0.001,0,0,3\n",
@@ -67,8 +67,7 @@ TEST_CASE("a bad table of pushes is named by file, line, column, value and bound
        }) {
     CAPTURE(c.text);
     write_file(file, c.text);
-    CHECK_THROWS_WITH(read_pushes(file), Catch::StartsWith(file.string() + c.complaint) ||
-                                             Catch::Contains(file.string() + c.complaint));
+    CHECK_THROWS_WITH(read_pushes(file), Catch::Contains(file.string() + c.complaint));
     CHECK_THROWS_AS(read_pushes(file), UserError);
   }
 }
@@ -85,5 +84,6 @@ TEST_CASE("a soil's file reads back as the same soil") {
   CHECK(back.bekker_exponent == soil.bekker_exponent);
   CHECK(back.yield_displacement_m.value == Approx(soil.yield_displacement_m.value).epsilon(1e-14));
   CHECK(back.pressure_law == soil.pressure_law);
-  CHECK(soil_toml(back, "hoof terrain fit") == soil_toml(load_soil(file.string()), "hoof terrain fit"));
+  CHECK(soil_toml(back, "hoof terrain fit") ==
+        soil_toml(load_soil(file.string()), "hoof terrain fit"));
 }

@@ -32,17 +32,13 @@ inline std::vector<tools::Push> synthetic_pushes(const sim::RftTerrainSettings& 
     const auto forces = tools::predict(plate, here);
     double square = 0;
     for (const auto& f : forces) square += f.squaredNorm() / double(forces.size());
-    for (std::size_t i = 0; i < forces.size(); ++i) {
-      const Eigen::Vector3d off(gauss(random), gauss(random), gauss(random));
-      push.samples.push_back({tools::PushPhase::kPush, (double(i) + 0.5) * 0.5e-3,
-                              forces[i] + noise * std::sqrt(square) * off});
-    }
-    if (plate.back_m > 0) {
-      const Eigen::Vector3d load = push.samples.back().force_N;
-      for (int i = 0; i < 20; ++i) {
-        const double way_m = (i + 0.5) * 0.05e-3;
-        const double share = std::max(0.0, 1 - way_m / soil.yield_displacement_m.value);
-        push.samples.push_back({tools::PushPhase::kBack, way_m, share * load});
+    std::size_t next = 0;
+    for (const tools::PushLeg& leg : tools::legs_of(plate)) {
+      if (leg.phase == tools::PushPhase::kInsert) continue;
+      for (int i = 0; i < leg.intervals; ++i) {
+        const Eigen::Vector3d off(gauss(random), gauss(random), gauss(random));
+        push.samples.push_back({leg.phase, (i + 0.5) * leg.way_m.norm() / leg.intervals,
+                                forces[next++] + noise * std::sqrt(square) * off});
       }
     }
     pushes.push_back(push);
