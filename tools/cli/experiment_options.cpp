@@ -34,6 +34,7 @@ constexpr std::string_view kFrequencyKey = "experiment.frequency_Hz";
 constexpr std::string_view kToeKey = "experiment.toe_deg";
 constexpr std::string_view kBedKey = "use.bed";
 constexpr std::string_view kTerrainKey = "experiment.terrain";
+constexpr std::string_view kSoilKey = "use.rft_terrain";
 constexpr std::string_view kDriveKey = "experiment.drive";
 constexpr std::string_view kBusKey = "experiment.bus";
 constexpr std::string_view kSeedKey = "experiment.seed";
@@ -151,6 +152,7 @@ std::string examples(Experiment experiment) {
            "  hoof sinkage --foot traditional --load 40 --speed 0.1 --bed bench --seed 3\n"
            "  hoof sinkage --foot bionic --toe 30 --load 400N --out runs/toe-30 --force\n"
            "  hoof sinkage --terrain rigid --faults faults.toml\n"
+           "  hoof sinkage --terrain rft --soil soil.toml\n"
            "  hoof sinkage --resume runs/toe-30.resume\n"
            "  hoof sinkage --bus vcan0                          firmware and plant as two "
            "processes\n"
@@ -271,9 +273,14 @@ void add_experiment_options(CLI::App& command, ExperimentOptions& options, Exper
   command.add_option("--bed", options.bed, "Preset demo, bench or paper, or a file")
       ->type_name("PRESET|FILE")
       ->check(name_or_file(kBeds, ""));
-  command.add_option("--terrain", options.terrain, "Grains (dem) or a rigid plane")
-      ->type_name("dem|rigid")
-      ->check(one_of({"dem", "rigid"}));
+  command
+      .add_option("--terrain", options.terrain, "Grains (dem), a fast law (rft) or a rigid plane")
+      ->type_name("dem|rft|rigid")
+      ->check(one_of({"dem", "rft", "rigid"}));
+  command
+      .add_option("--soil", options.soil, "Of --terrain rft: demo, or a file of hoof terrain fit")
+      ->type_name("NAME|FILE")
+      ->check(name_or_file({"demo"}, ".toml"));
   add_bus_options(command, options.bus);
   add_fault_options(command, options.faults);
   add_run_options(command, options.run);
@@ -306,6 +313,7 @@ std::vector<std::string> settings_overrides(const ExperimentOptions& options) {
   add_number(kToeKey, options.toe);
   add_text(kBedKey, options.bed);
   add_text(kTerrainKey, options.terrain);
+  add_text(kSoilKey, options.soil);
   add_text(kDriveKey, options.drive);
   add_text(kBusKey, options.bus.bus);
   add_fault_overrides(options.faults, overrides);

@@ -26,7 +26,8 @@ struct ExperimentOptions {
   std::string frequency;            ///< Hz, of the stance ellipse (traction)
   std::string toe;                  ///< degrees per side, 0..40
   std::string bed;                  ///< preset demo, bench, paper, or a file
-  std::string terrain;              ///< dem or rigid
+  std::string terrain;              ///< dem, rft or rigid
+  std::string soil;                 ///< of rft: preset or file
   std::string drive;                ///< firmware or prescribed
   BusOptions bus;                   ///< not given: firmware and plant in this process
   FaultOptions faults;              ///< put in on the way; none in a clean run

@@ -53,10 +53,10 @@ void check_bus_choice(const RunSettings& run, const BusChoice& choice) {
     throw UserError(
         "--clock real-time needs a CAN interface with a firmware on it, e.g. --bus vcan0");
   }
-  if (run.on_grains) {
+  if (run.on_grains()) {
     throw UserError(
         "--clock real-time: grains take seconds of computing for a second of sand; only ground "
-        "that keeps up with the wall's clock can be used: add --terrain rigid");
+        "that keeps up with the wall's clock can be used: add --terrain rft or --terrain rigid");
   }
 }
 

@@ -59,7 +59,7 @@ Places new_places(const RunSettings& run, const RunOutput& output) {
     places.resume = ResumeFolder::begin(path, run.kind, run.tree.to_toml(), output.force);
     if (places.resume) {
       // Without grains a run is done sooner than resumed.
-      if (!run.on_grains || output.checkpoint_every_s == 0) places.resume.reset();
+      if (!run.on_grains() || output.checkpoint_every_s == 0) places.resume.reset();
       return places;
     }
     if (!output.out.empty()) {
@@ -270,6 +270,7 @@ class Run {
                   deg("toe_command_rad"), deg("toe_reached_rad"), deg("toe_deflection_rad"));
     }
     print_faults(r);
+    if (run_.terrain == "rft") std::printf("%s\n", soil_line(run_).c_str());
     for (const auto& [joint, limited_s] : r.at("torque_limited_s").items()) {
       if (limited_s.get<double>() > 0) {
         std::printf("%s drive: at its torque limit for %.2f s\n", joint.c_str(),

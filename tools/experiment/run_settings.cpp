@@ -17,9 +17,9 @@ namespace {
 
 using firmware::app::Parameters;
 
-constexpr std::array<std::string_view, 11> kSections = {
-    "experiment", "foot",          "leg",     "bed", "materials", "drives",
-    "coupling",   "rigid_terrain", "control", "use", "fault"};
+constexpr std::array<std::string_view, 12> kSections = {
+    "experiment", "foot",        "leg",           "bed",     "materials", "drives",
+    "coupling",   "rft_terrain", "rigid_terrain", "control", "use",       "fault"};
 
 void refuse_unknown_sections(const sim::Settings& tree) {
   for (const auto& [key, entry] : tree.entries()) {
@@ -28,7 +28,8 @@ void refuse_unknown_sections(const sim::Settings& tree) {
       throw sim::ConfigError(entry.origin.text() + ": " + key + ": no section '" +
                              std::string(section) +
                              "'; known are experiment, foot, leg, bed, "
-                             "materials, drives, coupling, rigid_terrain, control, fault");
+                             "materials, drives, coupling, rft_terrain, rigid_terrain, control, "
+                             "fault");
     }
   }
 }
@@ -114,9 +115,7 @@ void read_control(const sim::Settings& tree, Parameters& parameters) {
 void read_experiment(const sim::Reader& root, RunSettings& run) {
   sim::Reader section = root.section("experiment");
   section.choice("kind", run.kind, {"sinkage", "traction"});
-  std::string terrain;
-  section.choice("terrain", terrain, {"dem", "rigid"});
-  run.on_grains = terrain == "dem";
+  section.choice("terrain", run.terrain, {"dem", "rft", "rigid"});
   section.text("bus", run.bus);
   std::int64_t seed = 0;
   section.integer("seed", seed, 0, std::int64_t(1) << 53);
@@ -193,6 +192,7 @@ RunSettings read_run_settings(const std::string& experiment,
   run.materials = sim::read_materials(root.section("materials"));
   read_drives(root, run);
   run.coupling = sim::read_coupling(root.section("coupling"));
+  run.rft = sim::read_rft_terrain(root.section("rft_terrain"));
   run.rigid = sim::read_rigid_terrain(root.section("rigid_terrain"));
   run.parameters = rig_parameters(run);
   read_control(run.tree, run.parameters);

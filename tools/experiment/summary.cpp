@@ -48,9 +48,22 @@ Json resolution(const RunSettings& run, double sinkage_m) {
   return j;
 }
 
+std::string hex(std::uint64_t hash) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+  return text;
+}
+
 Json ground(const RunSettings& run, const sim::Experiment& experiment) {
   Json j = Json::object();
-  j["terrain"] = run.on_grains ? "dem" : "rigid";
+  j["terrain"] = run.terrain;
+  if (run.terrain == "rft") {
+    j["soil"] = run.rft.name;
+    j["soil_hash"] = hex(run.rft.hash());
+    j["fitted_to"] = run.rft.fitted_to;
+    j["fit_error_ratio"] = run.rft.fit_error;
+    j["held_out_error_ratio"] = run.rft.held_out_error;
+  }
   const sim::SandBed* sand = find_sand(experiment.plant().terrain());
   if (sand == nullptr) return j;
   const sim::BedHealth health = sand->health();
@@ -60,9 +73,7 @@ Json ground(const RunSettings& run, const sim::Experiment& experiment) {
   j["bed_steps"] = health.steps;
   j["list_rebuilds"] = health.rebuilds;
   j["deepest_overlap_ratio"] = health.deepest_boundary_ratio;
-  char hash[17];
-  std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(sand->state_hash()));
-  j["state_hash"] = hash;
+  j["state_hash"] = hex(sand->state_hash());
   return j;
 }
 
@@ -131,6 +142,16 @@ void print_faults(const Json& result) {
               time("reset_s").c_str(), r["mode"].get<std::string>().c_str());
 }
 
+std::string soil_line(const RunSettings& run) {
+  char text[300];
+  std::snprintf(text, sizeof text,
+                "fast soil '%s' (%s), fitted to %s: off its pushes by %.0f %%, off those held "
+                "out by %.0f %%",
+                run.rft.name.c_str(), hex(run.rft.hash()).c_str(), run.rft.fitted_to.c_str(),
+                100 * run.rft.fit_error, 100 * run.rft.held_out_error);
+  return text;
+}
+
 TractionPeaks find_peaks(const std::vector<ForceSample>& forces) {
   TractionPeaks peaks;
   const int n = int(forces.size()), half = TractionPeaks::kPeakWindow_ticks / 2;
@@ -193,7 +214,7 @@ Json summarise(const RunSettings& run, const sim::Experiment& experiment,
   j["exchange_work_J"] = energy.work_by_terrain_J;
   j["exchange_error_J"] = energy.error_J();
   j["ground"] = ground(run, experiment);
-  if (run.on_grains) j["resolution"] = resolution(run, depth);
+  if (run.on_grains()) j["resolution"] = resolution(run, depth);
   j["firmware"] = firmware_identity(run);
   j["version"] = version_json();
   return j;
