@@ -86,6 +86,8 @@ TEST_CASE("resistance is against the motion, in all directions alike") {
     CHECK((rft::alpha(mirror.cwiseProduct(n), mirror.cwiseProduct(v), 0.6) - mirror.cwiseProduct(a))
               .norm() < 1e-12);
     CHECK(a.dot(v) <= 0);
+    // A plate, not a side of it.
+    CHECK((rft::generic_alpha(-n, v) - rft::generic_alpha(n, v)).norm() < 1e-12);
     CHECK(a.dot(n) <= 0);
     CHECK((a - a.dot(n) * n).norm() <= 0.6 * -a.dot(n) + 1e-12);
     if (n.dot(v) <= 0) CHECK(a == Vector3d::Zero());
