@@ -19,9 +19,7 @@ FaultKind read_kind(Reader& section) {
   section.text("kind", name);
   const auto found = std::find(kFaultKindNames.begin(), kFaultKindNames.end(), name);
   if (found != kFaultKindNames.end()) return FaultKind(found - kFaultKindNames.begin());
-  std::string all;
-  for (const char* kind : kFaultKindNames) all += (all.empty() ? "" : ", ") + std::string(kind);
-  section.fail("kind", "must be one of " + all);
+  section.fail("kind", "must be one of " + fault_kind_names());
 }
 
 void read_start(Reader& section, FaultSpec& fault) {
@@ -146,6 +144,14 @@ FaultSpec read_fault(Reader section, const std::string& key, const sim::Settings
 
 std::string FaultSpec::name() const {
   return key + " (" + kFaultKindNames[std::size_t(kind)] + " " + target + ")";
+}
+
+std::string fault_kind_names() {
+  std::string names;
+  for (const char* kind : kFaultKindNames) {
+    names += (names.empty() ? "" : ", ") + std::string(kind);
+  }
+  return names;
 }
 
 std::vector<FaultSpec> read_faults(const sim::Settings& settings) {

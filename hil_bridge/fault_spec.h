@@ -64,6 +64,9 @@ struct FaultSpec {
   std::string name() const;
 };
 
+/// "drop, delay, ..."
+std::string fault_kind_names();
+
 /// All faults of a run, in their order; empty where the settings have none.
 /// @throws sim::ConfigError naming file, line, key, value and bound
 std::vector<FaultSpec> read_faults(const sim::Settings& settings);

@@ -7,7 +7,7 @@
 #include "firmware/protocol/codec.h"
 #include "hil_bridge/session.h"
 #include "sim/config/config_error.h"
-#include "tests/hil_bridge/rigid_bench.h"
+#include "tests/hil_bridge/fault_bench.h"
 
 using namespace hoof;
 using bridge::FaultTimeline;
@@ -20,35 +20,12 @@ namespace {
 
 const FaultTimeline::Drives kToeOnly = {true, false, false};
 
-std::vector<bridge::FaultSpec> parse(const std::string& toml) {
-  return bridge::read_faults(sim::Settings::parse(toml, "faults.toml"));
-}
+const auto parse = test::parse_faults;
+const auto run = test::run_with_faults;
+using Outcome = test::FaultRun;
 
 void build(const std::string& toml) {
   FaultTimeline(parse(toml), kToeOnly);
-}
-
-struct Outcome {
-  SessionResult result;
-  std::vector<SeenFrame> frames;
-};
-
-Outcome run(const std::string& kind, const std::string& toml) {
-  const tools::RunSettings settings = test::rigid_run(kind);
-  const auto experiment = test::rigid_bench(settings);
-  Outcome outcome;
-  const auto wires = bridge::in_process_wires([&](int bus, const hal::CanFrame& frame) {
-    outcome.frames.push_back({bus, frame});
-  });
-  FaultTimeline faults(parse(toml), settings.has_drives());
-  bridge::SessionSettings session;
-  session.has_toes = settings.foot.has_toes;
-  session.toe_rad = settings.toe_rad();
-  session.firmware_leg = settings.firmware_leg();
-  session.frequency_Hz = settings.traction.frequency_Hz;
-  session.faults = &faults;
-  outcome.result = bridge::run_session(*experiment, settings.parameters, *wires, session, {});
-  return outcome;
 }
 
 std::size_t frames_between(const Outcome& outcome, std::uint32_t id, double from_s, double to_s) {

@@ -111,16 +111,19 @@ Json firmware_identity(const RunSettings& run) {
 
 void print_faults(const Json& result) {
   if (!result.contains("reaction")) return;
+  const auto time_of = [](const Json& values, const char* key) {
+    char text[32] = "never";
+    const Json& time_s = values[key];
+    if (!time_s.is_null()) std::snprintf(text, sizeof text, "%.3f s", time_s.get<double>());
+    return std::string(text);
+  };
   for (const auto& [name, fault] : result["faults"].items()) {
-    std::printf("%s: from %.3f s on, changed %s\n", name.c_str(), fault["began_s"].get<double>(),
+    std::printf("%s: from %s to %s, changed %s\n", name.c_str(), time_of(fault, "began_s").c_str(),
+                fault["ended_s"].is_null() ? "the end" : time_of(fault, "ended_s").c_str(),
                 fault["changed"].dump().c_str());
   }
   const Json& r = result["reaction"];
-  const auto time = [&r](const char* key) {
-    char text[32] = "never";
-    if (!r[key].is_null()) std::snprintf(text, sizeof text, "%.3f s", r[key].get<double>());
-    return std::string(text);
-  };
+  const auto time = [&](const char* key) { return time_of(r, key); };
   const auto bits = r["faults"].get<std::string>();
   if (bits.empty()) {
     std::printf("firmware: no fault; mode %s\n", r["mode"].get<std::string>().c_str());

@@ -18,6 +18,13 @@ struct Expectation {
   /// In this mode there may be nothing for the fault to change, such as the torque of a drive that
   /// is off; then it must be harmless.
   bool idle = false;
+  /// So long a drive may push more than a quarter of the gate's ceiling harder than it ever does
+  /// without the fault. Zero but where the drive's own law acts on its own wrong encoder, or on a
+  /// command that nobody gave.
+  double surge_s = 0;
+
+  /// The foot does what it did before.
+  bool goes_on(firmware::control::Mode mode) const;
 };
 
 struct MatrixCase {

@@ -23,6 +23,7 @@ struct Replies {
   JointState state;
   JointWish passed;
   std::int64_t now_ns = 7'000 * kMillisecond_ns;
+  bool gives_way = false;  // by the least there is: a joint whose torque changes is not on one code
 
   explicit Replies(std::size_t which) : joint(which) {
     state.received = state.referenced = true;
@@ -40,6 +41,7 @@ struct Replies {
   FaultBits next(std::uint32_t ticks = 1, std::int64_t elapsed_ns = kMillisecond_ns) {
     now_ns += elapsed_ns;
     state.received_ns = now_ns;
+    if (gives_way) state.reading_rad += state.reading_rad > 0.0f ? -1e-6f : 1e-6f;
     return look(ticks);
   }
 
@@ -214,6 +216,55 @@ TEST_CASE("A reading that stands still while its speed does not is found, and ho
   }
 }
 
+TEST_CASE("A reading on one code while the torque changes is found, from the eleventh reply on") {
+  for (std::size_t joint = 0; joint < 3; ++joint) {
+    for (const float sign : {-1.0f, 1.0f}) {
+      CAPTURE(joint, sign);
+      const float bound_Nm = kLimits[joint].stuck_Nm;
+      const auto settle = [&](Replies& r, float torque_Nm) {
+        FaultBits found = 0;
+        for (int i = 0; i < 50; ++i) {
+          r.state.torque_Nm = i % 2 == 0 ? 0.0f : sign * torque_Nm;
+          found |= r.next();
+        }
+        return found;
+      };
+      Replies inside(joint), beyond(joint), moves(joint);
+      CHECK(settle(inside, bound_Nm) == 0);
+      CHECK(settle(beyond, 1.01f * bound_Nm) == fault::kImplausibleReply);
+      // A code of motion now and then is enough.
+      for (int i = 0; i < 50; ++i) {
+        moves.state.torque_Nm = i % 2 == 0 ? 0.0f : sign * 2.0f * bound_Nm;
+        if (i % 5 == 0) moves.place(moves.state.reading_rad + 4e-4f);
+        CHECK(moves.next() == 0);
+      }
+    }
+  }
+}
+
+TEST_CASE(
+    "A torque that has brought a rotor to rest does not count, one from the fifth reply on does") {
+  for (std::size_t joint = 0; joint < 3; ++joint) {
+    for (const float sign : {-1.0f, 1.0f}) {
+      const float far_Nm = sign * 2.0f * kLimits[joint].stuck_Nm;
+      // One reply with another torque: which of those on one code it is decides.
+      for (int odd_one = 1; odd_one <= kStuckReplies + 1; ++odd_one) {
+        CAPTURE(joint, sign, odd_one);
+        Replies r(joint);
+        r.place(r.state.reading_rad + 4e-4f);
+        for (int reply = 1; reply <= kStuckReplies; ++reply) {
+          r.state.torque_Nm = reply == odd_one ? far_Nm : 0.0f;
+          REQUIRE(r.next() == 0);
+        }
+        r.state.torque_Nm = odd_one == kStuckReplies + 1 ? far_Nm : 0.0f;
+        // Those of the settling are forgotten but for the last, which the others are held against.
+        const bool counts = odd_one >= kSettlingReplies;
+        CHECK(r.next() == (counts ? fault::kImplausibleReply : 0));
+      }
+    }
+  }
+}
+
 TEST_CASE("A slow drift, and rounding as the wire has it, are none") {
   for (std::size_t joint = 0; joint < 3; ++joint) {
     const float bound_rad_s = kLimits[joint].drift_rad / kDriftMemory_s;
@@ -382,6 +433,7 @@ TEST_CASE("The torque may be away from what was asked by its bound, on both side
     for (const float side : {1.0f, -1.0f}) {
       for (const bool beyond : {false, true}) {
         Replies r(joint);
+        r.gives_way = true;
         const float off_Nm = beyond ? std::nextafter(bound_Nm, 1e9f) : bound_Nm;
         r.passed = {DriveAction::kCommand, {.torque_Nm = 0.0f}};
         r.state.torque_Nm = side * off_Nm;
@@ -417,6 +469,7 @@ TEST_CASE("What is asked is the law of the passed command at the reported state"
 
 TEST_CASE("Moments of lag do not add up, a drive that is off more often than not is found") {
   Replies r(1);
+  r.gives_way = true;
   r.passed = {DriveAction::kCommand, {.torque_Nm = 200.0f}};
   for (int i = 0; i < 5000; ++i) {
     r.state.torque_Nm = i % 2 == 0 ? 0.0f : 200.0f;
@@ -436,6 +489,7 @@ TEST_CASE("A drive cannot be asked for more than it has, nor be blamed for not g
   for (const float side : {1.0f, -1.0f}) {
     for (const std::size_t joint : {std::size_t{0}, std::size_t{1}}) {
       Replies r(joint);
+      r.gives_way = true;
       const float peak_Nm = kDrives[joint].peak_torque_Nm;
       r.passed = {DriveAction::kCommand, {.torque_Nm = side * 3.0f * peak_Nm}};
       r.state.torque_Nm = side * peak_Nm;
@@ -450,6 +504,7 @@ TEST_CASE("A drive cannot be asked for more than it has, nor be blamed for not g
 TEST_CASE("Enter and exit ask for no torque, and end what was counted") {
   for (const DriveAction action : {DriveAction::kEnter, DriveAction::kExit}) {
     Replies r(1);
+    r.gives_way = true;
     r.state.torque_Nm = 200.0f;
     r.passed = {action, {}};
     for (int i = 0; i < 300; ++i) REQUIRE(r.next() == 0);
