@@ -100,7 +100,8 @@ class Session {
   void note_faults(const TickRecord& record) {
     settings_.faults->update(record);
     if (!settings_.faults->first_s()) return;
-    watch_.note(record.plant.time_s, experiment_.plant(), record.firmware,
+    // Of now: the record's is of before the orders that came with the tick.
+    watch_.note(record.plant.time_s, experiment_.plant(), lock_step_.firmware().mode(),
                 lock_step_.firmware().faults());
   }
 

@@ -24,7 +24,7 @@ class Writer {
   /// Mostly what belongs together, and now and then anything.
   std::string faults() {
     std::string toml;
-    for (std::size_t i = 0, n = 1 + below(3); i < n; ++i) toml += fault();
+    for (std::size_t i = 0, n = one_in(3) ? 2 : 1; i < n; ++i) toml += fault();
     return toml;
   }
 
@@ -60,6 +60,8 @@ class Writer {
     return pick(kNumbers);
   }
 
+  std::string mostly(const std::string& good) { return one_in(3) ? number() : good; }
+
   std::string condition() {
     static const char* const kSignals[] = {"time_s", "depth_m", "mode", "toe_rad", "frob", ""};
     static const char* const kComparisons[] = {">", ">=", "<", "==", "!=", "=>", ""};
@@ -86,12 +88,13 @@ class Writer {
       toml += "kind = \"" + std::string(one_in(20) ? "frob" : names[below(names.size())]) + "\"\n";
     }
     if (!one_in(10)) toml += "target = " + (one_in(30) ? number() : target()) + "\n";
-    if (!one_in(4)) toml += (one_in(2) ? "at_s = " : "at_tick = ") + number() + "\n";
-    if (one_in(6)) toml += "when = \"" + condition() + "\"\n";
+    if (!one_in(8)) toml += (one_in(2) ? "at_s = " : "at_tick = ") + mostly("2") + "\n";
+    if (one_in(8)) toml += "when = \"" + condition() + "\"\n";
+    if (one_in(2)) toml += "for_s = " + mostly("0.1") + "\n";
     for (std::size_t i = 0, n = below(3); i < n; ++i) {
-      toml += pick(kKeys) + " = " + number() + "\n";
+      toml += pick(kKeys) + " = " + mostly("1") + "\n";
     }
-    if (one_in(10)) toml += "cause = " + pick(kCauses) + "\n";
+    if (one_in(20)) toml += "cause = " + pick(kCauses) + "\n";
     return toml;
   }
 

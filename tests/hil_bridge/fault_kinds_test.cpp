@@ -22,7 +22,8 @@ namespace {
 
 constexpr std::uint32_t kSync = 0x010, kToeReply = 0x031, kToeCommand = 0x021, kFootToe = 0x060;
 constexpr double kDegree_rad = 0.017453292519943295;
-// In the sinkage run the toes are homed by 0.5 s, on their way at 0.7 s and still from 1.2 s on.
+// In the traction run the toes are homed by 0.5 s, open by 1.2 s, and still while the leg is not on
+// the ground.
 constexpr double kCode_rad = 25.0 / 65535;  // of the toe's position
 constexpr double kSpeedCode_rad_s = 90.0 / 4095;
 
@@ -30,8 +31,8 @@ std::string entry(const std::string& text) {
   return "[[fault]]\n" + text + "\n";
 }
 
-FaultRun sinkage(const std::string& text) {
-  return run_with_faults("sinkage", entry(text));
+FaultRun traction(const std::string& text) {
+  return run_with_faults("traction", entry(text));
 }
 
 DriveReply decoded(const hal::CanFrame& frame) {
@@ -78,7 +79,7 @@ double encoder_error_rad(const FaultRun& run, double time_s) {
 
 TEST_CASE("fault kinds: delayed replies pause once, then come late") {
   const FaultRun run =
-      sinkage("kind = \"delay\"\ntarget = \"ToeReply\"\nat_s = 1.3\nfor_s = 0.05\ndelay_ms = 3");
+      traction("kind = \"delay\"\ntarget = \"ToeReply\"\nat_s = 1.3\nfor_s = 0.05\ndelay_ms = 3");
   CHECK(frames_in(run, kToeReply, 1.299, 1.3).size() == 1);
   CHECK(frames_in(run, kToeReply, 1.3, 1.303).empty());
   CHECK(frames_in(run, kToeReply, 1.303, 1.35).size() == 47);
@@ -88,7 +89,7 @@ TEST_CASE("fault kinds: delayed replies pause once, then come late") {
 }
 
 TEST_CASE("fault kinds: reordered SYNC numbers swap in pairs") {
-  const FaultRun run = sinkage("kind = \"reorder\"\ntarget = \"Sync\"\nat_s = 1.3\nfor_s = 0.05");
+  const FaultRun run = traction("kind = \"reorder\"\ntarget = \"Sync\"\nat_s = 1.3\nfor_s = 0.05");
   int back = 0;
   std::uint32_t last = 0;
   for (const test::SeenFrame& seen : run.frames) {
@@ -103,7 +104,7 @@ TEST_CASE("fault kinds: reordered SYNC numbers swap in pairs") {
 
 TEST_CASE("fault kinds: duplicated frames are there as often as said") {
   const FaultRun run =
-      sinkage("kind = \"duplicate\"\ntarget = \"ToeReply\"\nat_s = 1.3\nfor_s = 0.05\ncopies = 2");
+      traction("kind = \"duplicate\"\ntarget = \"ToeReply\"\nat_s = 1.3\nfor_s = 0.05\ncopies = 2");
   const auto frames = frames_in(run, kToeReply, 1.3, 1.35);
   REQUIRE(frames.size() == 150);
   for (std::size_t i = 0; i < frames.size(); i += 3) {
@@ -114,9 +115,9 @@ TEST_CASE("fault kinds: duplicated frames are there as often as said") {
 
 TEST_CASE("fault kinds: of corrupted frames exactly so many bits are flipped") {
   // Telemetry: nobody acts on it, so all else of the run is as without the fault.
-  const FaultRun clean = run_with_faults("sinkage", "");
+  const FaultRun clean = run_with_faults("traction", "");
   const FaultRun run =
-      sinkage("kind = \"corrupt\"\ntarget = \"FootToe\"\nat_s = 1.3\nfor_s = 0.1\nbits = 3");
+      traction("kind = \"corrupt\"\ntarget = \"FootToe\"\nat_s = 1.3\nfor_s = 0.1\nbits = 3");
   const auto good = frames_in(clean, kFootToe, 1.3, 1.4), bad = frames_in(run, kFootToe, 1.3, 1.4);
   REQUIRE(good.size() == 10);
   REQUIRE(bad.size() == 10);
@@ -130,21 +131,22 @@ TEST_CASE("fault kinds: of corrupted frames exactly so many bits are flipped") {
 }
 
 TEST_CASE("fault kinds: a flood comes at its rate, or fills the wire") {
-  const FaultRun some = sinkage(
+  const FaultRun some = traction(
       "kind = \"flood\"\ntarget = \"can0\"\nid = 0x7F0\nrate_Hz = 2000\nat_s = 1.3\nfor_s = 0.05");
   CHECK(double(frames_in(some, 0x7F0, 1.3, 1.35).size()) == Approx(100).margin(2));
   const FaultRun full =
-      sinkage("kind = \"flood\"\ntarget = \"can0\"\nid = 0\nat_s = 1.3\nfor_s = 0.05");
+      traction("kind = \"flood\"\ntarget = \"can0\"\nid = 0\nat_s = 1.3\nfor_s = 0.05");
   // 50 ms of frames of 111 bits and up to 24 stuffed at 1 Mbit/s.
   CHECK(frames_in(full, 0, 1.3, 1.35).size() > 360);
   CHECK((full.result.reaction->faults & (fault::kSyncLost | fault::kDriveLost)) != 0);
 }
 
 TEST_CASE("fault kinds: a node whose controller is off the bus is not on it, and knows") {
-  const FaultRun drive = sinkage("kind = \"bus_off\"\ntarget = \"toe\"\nat_s = 1.3\nfor_s = 0.015");
+  const FaultRun drive =
+      traction("kind = \"bus_off\"\ntarget = \"toe\"\nat_s = 1.3\nfor_s = 0.015");
   CHECK(frames_in(drive, kToeReply, 1.3, 1.315).empty());
   CHECK(frames_in(drive, kToeCommand, 1.3, 1.315).size() == 15);
-  const FaultRun foot = sinkage("kind = \"bus_off\"\ntarget = \"foot\"\nat_s = 1.3\nfor_s = 0.05");
+  const FaultRun foot = traction("kind = \"bus_off\"\ntarget = \"foot\"\nat_s = 1.3\nfor_s = 0.05");
   CHECK(frames_in(foot, kToeCommand, 1.3002, 1.35).empty());
   CHECK((foot.result.reaction->faults & fault::kBusOff) != 0);
   CHECK(*foot.result.reaction->tripped_s == Approx(1.3).margin(0.0015));
@@ -152,14 +154,14 @@ TEST_CASE("fault kinds: a node whose controller is off the bus is not on it, and
 
 TEST_CASE("fault kinds: a silent foot hears, but says nothing") {
   const FaultRun run =
-      sinkage("kind = \"node_silent\"\ntarget = \"foot\"\nat_s = 1.3\nfor_s = 0.05");
+      traction("kind = \"node_silent\"\ntarget = \"foot\"\nat_s = 1.3\nfor_s = 0.05");
   CHECK(frames_in(run, kToeCommand, 1.3002, 1.35).empty());
   CHECK(run.result.reaction->faults == fault::kDriveLost);
 }
 
 TEST_CASE("fault kinds: a toe drive that restarts counts from where it wakes up") {
   const FaultRun run =
-      sinkage("kind = \"node_restart\"\ntarget = \"toe\"\nat_s = 1.3\nfor_s = 0.03");
+      traction("kind = \"node_restart\"\ntarget = \"toe\"\nat_s = 1.3\nfor_s = 0.03");
   const auto before = replies(run, 1.299, 1.3), after = replies(run, 1.33, 1.335);
   REQUIRE(before.size() == 1);
   REQUIRE(!after.empty());
@@ -169,7 +171,7 @@ TEST_CASE("fault kinds: a toe drive that restarts counts from where it wakes up"
 }
 
 TEST_CASE("fault kinds: a foot that restarts is in mode off, with the cause that was told") {
-  const FaultRun run = sinkage(
+  const FaultRun run = traction(
       "kind = \"node_restart\"\ntarget = \"foot\"\nat_s = 1.3\nfor_s = 0.03\ncause = \"watchdog\"");
   CHECK(run.result.reaction->faults == fault::kUnexpectedReset);
   CHECK(frames_in(run, kToeCommand, 1.3002, 1.33).empty());
@@ -177,7 +179,7 @@ TEST_CASE("fault kinds: a foot that restarts is in mode off, with the cause that
 
 TEST_CASE("fault kinds: an encoder that jumps shows it as way and as speed, and keeps it") {
   const FaultRun run =
-      sinkage("kind = \"encoder_jump\"\ntarget = \"toe\"\nat_s = 1.3\njump_deg = 5");
+      traction("kind = \"encoder_jump\"\ntarget = \"toe\"\nat_s = 1.3\njump_deg = 5");
   const auto before = replies(run, 1.299, 1.3), after = replies(run, 1.3, 1.301);
   CHECK(after.at(0).position_rad - before.at(0).position_rad ==
         Approx(5 * kDegree_rad).margin(0.01));
@@ -187,7 +189,7 @@ TEST_CASE("fault kinds: an encoder that jumps shows it as way and as speed, and 
 }
 
 TEST_CASE("fault kinds: an offset is there while it lasts, without speed") {
-  const FaultRun run = sinkage(
+  const FaultRun run = traction(
       "kind = \"encoder_offset\"\ntarget = \"toe\"\nat_s = 1.3\nfor_s = 0.05\noffset_deg = -1");
   const auto before = replies(run, 1.299, 1.3), after = replies(run, 1.3, 1.301);
   CHECK(after.at(0).position_rad - before.at(0).position_rad ==
@@ -197,7 +199,7 @@ TEST_CASE("fault kinds: an offset is there while it lasts, without speed") {
 }
 
 TEST_CASE("fault kinds: a stuck encoder shows one code while the toe goes on") {
-  const FaultRun run = sinkage(
+  const FaultRun run = traction(
       "kind = \"encoder_stuck\"\ntarget = \"toe\"\nwhen = \"toe_rad > 0.15\"\nfor_s = 0.05");
   const double t_s = began_s(run);
   const auto seen = replies(run, t_s + 2e-3, t_s + 0.05);
@@ -207,7 +209,7 @@ TEST_CASE("fault kinds: a stuck encoder shows one code while the toe goes on") {
 }
 
 TEST_CASE("fault kinds: a drift adds up at its rate, and stays") {
-  const FaultRun run = sinkage(
+  const FaultRun run = traction(
       "kind = \"encoder_drift\"\ntarget = \"toe\"\nat_s = 1.3\nfor_s = 0.1\ndrift_deg_s = 10");
   const double before_rad = encoder_error_rad(run, 1.299);
   CHECK(encoder_error_rad(run, 1.35) - before_rad == Approx(0.5 * kDegree_rad).margin(1e-3));
@@ -217,7 +219,7 @@ TEST_CASE("fault kinds: a drift adds up at its rate, and stays") {
 
 TEST_CASE("fault kinds: noise has the standard deviation that was asked for") {
   // So little that the watch on readings against speeds bears it, and ten codes all the same.
-  const FaultRun run = sinkage(
+  const FaultRun run = traction(
       "kind = \"encoder_noise\"\ntarget = \"toe\"\nat_s = 1.3\nfor_s = 0.2\nnoise_deg = 0.2");
   const auto spread_rad = [&](double from_s, double to_s) {
     const auto seen = replies(run, from_s, to_s);
@@ -233,7 +235,7 @@ TEST_CASE("fault kinds: noise has the standard deviation that was asked for") {
 
 TEST_CASE("fault kinds: a drive without torque tells none while it is asked for some") {
   const FaultRun run =
-      sinkage("kind = \"torque_loss\"\ntarget = \"toe\"\nwhen = \"toe_rad > 0.15\"\nfor_s = 0.05");
+      traction("kind = \"torque_loss\"\ntarget = \"toe\"\nwhen = \"toe_rad > 0.15\"\nfor_s = 0.05");
   const double t_s = began_s(run);
   double before_Nm = 0, after_Nm = 0;
   for (const DriveReply& r : replies(run, t_s - 0.05, t_s)) {
@@ -242,13 +244,13 @@ TEST_CASE("fault kinds: a drive without torque tells none while it is asked for 
   for (const DriveReply& r : replies(run, t_s + 1e-3, t_s + 0.05)) {
     after_Nm = std::max(after_Nm, std::abs(double(r.torque_Nm)));
   }
-  CHECK(before_Nm > 0.5);
+  CHECK(before_Nm > 0.3);
   CHECK(after_Nm < 0.01);
 }
 
 TEST_CASE("fault kinds: a stalled drive stands, whatever it is told") {
   const std::string begin = "target = \"toe\"\nwhen = \"toe_rad > 0.15\"\nfor_s = 0.3\n";
-  const FaultRun stall = sinkage("kind = \"stall\"\n" + begin);
+  const FaultRun stall = traction("kind = \"stall\"\n" + begin);
   const double t_s = began_s(stall);
   // The gear winds up and back, the rotor stands.
   const auto seen = replies(stall, t_s + 5e-3, t_s + 0.1);
@@ -262,19 +264,19 @@ TEST_CASE("fault kinds: a stalled drive stands, whatever it is told") {
 TEST_CASE(
     "fault kinds: a supply that sags and a button that is pressed are told as what they are") {
   const auto bits = [](const std::string& text) {
-    return sinkage(text + "\nat_s = 1.3\nfor_s = 0.02").result.reaction->faults;
+    return traction(text + "\nat_s = 1.3\nfor_s = 0.02").result.reaction->faults;
   };
   CHECK(bits("kind = \"brown_out\"") == fault::kBrownOut);
   CHECK(bits("kind = \"brown_out\"\nsupply_V = 30") == fault::kBrownOut);
   CHECK(bits("kind = \"brown_out\"\nsupply_V = 48") == 0);
   CHECK(bits("kind = \"estop\"\ntarget = \"line\"") == fault::kEmergencyStop);
-  const FaultRun frame = sinkage("kind = \"estop\"\ntarget = \"can0\"\nat_s = 1.3\nfor_s = 0.02");
+  const FaultRun frame = traction("kind = \"estop\"\ntarget = \"can0\"\nat_s = 1.3\nfor_s = 0.02");
   CHECK(frame.result.reaction->faults == fault::kEmergencyStop);
   CHECK(frames_in(frame, 0x001, 1.3, 1.32).size() == 2);
 }
 
 TEST_CASE("fault kinds: SYNC jitters as far as said, and no farther") {
-  const FaultRun run = sinkage("kind = \"sync_jitter\"\nat_s = 1.3\nfor_s = 0.2\njitter_ms = 0.8");
+  const FaultRun run = traction("kind = \"sync_jitter\"\nat_s = 1.3\nfor_s = 0.2\njitter_ms = 0.8");
   const auto late_ms = [&](double from_s, double to_s) {
     std::vector<double> late;
     for (const test::SeenFrame& seen : run.frames) {

@@ -55,9 +55,12 @@ void run(const Options& options) {
   write_file(options.out / "faults.xml", matrix_junit(cells));
   write_file(options.out / "report.html", matrix_html(cells));
   write_file(options.out / "faults.md", matrix_markdown(cells));
-  std::size_t missed = 0;
-  for (const MatrixCell& cell : cells) missed += !cell.misses.empty();
-  std::cout << cells.size() << " cells, " << missed << " missed; table in "
+  std::size_t missed = 0, gaps = 0;
+  for (const MatrixCell& cell : cells) {
+    missed += !cell.misses.empty();
+    gaps += !cell.gaps.empty();
+  }
+  std::cout << cells.size() << " cells, " << missed << " missed, " << gaps << " known gaps; table in "
             << (options.out / "report.html").string() << std::endl;
   if (missed > 0) throw BarMissed(std::to_string(missed) + " cells are not as expected");
 }

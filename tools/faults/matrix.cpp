@@ -94,6 +94,7 @@ MatrixCell finish(MatrixChild& child, const MatrixCase& c, Mode mode) {
   cell.reset = m.reset;
   cell.moves = m.moves;
   judge(cell, c.expected(mode), Mode(m.end_mode));
+  if (c.gap) std::swap(cell.gaps, cell.misses);
   return cell;
 }
 

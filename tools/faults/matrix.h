@@ -25,6 +25,7 @@ struct MatrixCell {
   std::string end_mode;          // at the end of the fault and of the stop
   bool reset = false;            // the reset led to off, without a fault
   bool moves = false;            // and an order moves it again
+  std::string gaps;              // what is known not to be as it should
   std::string misses;            // what was not as expected; empty: all was
 };
 

@@ -35,7 +35,8 @@ struct MatrixCase {
   Expectation idle;      // in off, fault, emergency off
   /// Modes for which something else holds.
   std::vector<std::pair<firmware::control::Mode, Expectation>> except;
-  std::string why;  // where the expectation needs a reason; told in the table
+  std::string why;   // where the expectation needs a reason; told in the table
+  bool gap = false;  // known not to be met everywhere; `why` says what is in the way
 
   const Expectation& expected(firmware::control::Mode mode) const;
 };
