@@ -28,7 +28,7 @@ inline std::vector<bridge::FaultSpec> parse_faults(const std::string& toml) {
 /// @param kind "sinkage" or "traction"
 /// @param toml [[fault]] entries; empty: a run without any
 inline FaultRun run_with_faults(const std::string& kind, const std::string& toml) {
-  const tools::RunSettings settings = rigid_run(kind);
+  const tools::RunSettings settings = rigid_run(kind, {"experiment.toe_deg=20"});
   const auto experiment = rigid_bench(settings);
   FaultRun run;
   const auto wires = bridge::in_process_wires([&](int bus, const hal::CanFrame& frame) {

@@ -86,6 +86,44 @@ TEST_CASE("a fault that is written wrong is told by file, line, key, value and b
   }
 }
 
+TEST_CASE("faults of a board are refused where the firmware is not in this process") {
+  /// As one on the bus, without a board that could be reached.
+  class Elsewhere final : public bridge::FirmwareNode {
+   public:
+    Elsewhere(hal::CanBus& bus0, hal::CanBus& bus1, const hal::Clock& clock,
+              const firmware::app::Parameters& parameters)
+        : inner_(bus0, bus1, clock, parameters) {}
+    void poll(std::uint32_t tick) override { inner_.poll(tick); }
+    const firmware::app::Telemetry& telemetry() const override { return inner_.telemetry(); }
+
+   private:
+    bridge::LocalFirmware inner_;
+  };
+  const tools::RunSettings settings = test::rigid_run("sinkage");
+  const bridge::FirmwareMaker make = [&](hal::CanBus& bus0, hal::CanBus& bus1,
+                                         const hal::Clock& clock) {
+    return std::make_unique<Elsewhere>(bus0, bus1, clock, settings.parameters);
+  };
+  const auto bind = [&](const std::string& fault) {
+    const auto experiment = test::rigid_bench(settings);
+    const auto wires = bridge::in_process_wires({});
+    FaultTimeline faults(parse("[[fault]]\nat_s = 1\n" + fault), kToeOnly);
+    bridge::LockStep lock_step(*experiment, make, faults.wires(*wires));
+    faults.bind(lock_step, *experiment);
+  };
+  for (const char* fault : {"kind = \"brown_out\"", "kind = \"estop\"\ntarget = \"line\"",
+                            "kind = \"node_restart\"\ntarget = \"foot\""}) {
+    CAPTURE(fault);
+    CHECK_THROWS_WITH(bind(fault), Catch::Contains("faults.toml:3:1: fault.0 (") &&
+                                       Catch::Contains("out of reach; leave out --bus"));
+  }
+  for (const char* fault :
+       {"kind = \"node_restart\"\ntarget = \"toe\"", "kind = \"estop\"\ntarget = \"can0\"",
+        "kind = \"bus_off\"\ntarget = \"foot\""}) {
+    CHECK_NOTHROW(bind(fault));
+  }
+}
+
 TEST_CASE("eleven faults keep their order") {
   std::string toml;
   for (int i = 0; i < 11; ++i) {

@@ -82,11 +82,13 @@ Json faults(const bridge::SessionResult& session) {
 
 Json reaction(const bridge::SessionResult& session) {
   const bridge::Reaction& r = *session.reaction;
-  std::optional<double> first_s, until_safe_s;
+  // Of the fault that began last before the firmware told one: those before it were borne.
+  std::optional<double> cause_s, until_safe_s;
   for (const bridge::FaultOutcome& fault : session.faults) {
-    if (fault.began_s && (!first_s || *fault.began_s < *first_s)) first_s = fault.began_s;
+    const bool before = fault.began_s && (!r.tripped_s || *fault.began_s <= *r.tripped_s);
+    if (before && (!cause_s || *fault.began_s > *cause_s)) cause_s = fault.began_s;
   }
-  if (first_s && r.safe_s) until_safe_s = std::max(0.0, *r.safe_s - *first_s);
+  if (cause_s && r.safe_s) until_safe_s = std::max(0.0, *r.safe_s - *cause_s);
   return {{"faults", bridge::fault_bit_names(r.faults)},
           {"ended_by", session.ended_by},
           {"tripped_s", seconds(r.tripped_s)},

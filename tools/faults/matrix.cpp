@@ -109,11 +109,11 @@ JointTorques undisturbed(MatrixFoot& foot) {
 
 }  // namespace
 
-std::vector<MatrixCell> run_matrix(const MatrixOptions& options,
+std::vector<MatrixCell> run_matrix(const std::vector<MatrixCase>& all, const MatrixOptions& options,
                                    const std::function<bool(const MatrixCell&)>& done) {
   std::vector<MatrixCase> cases;
-  for (MatrixCase& c : matrix_cases()) {
-    if (c.name.find(options.only) != std::string::npos) cases.push_back(std::move(c));
+  for (const MatrixCase& c : all) {
+    if (c.name.find(options.only) != std::string::npos) cases.push_back(c);
   }
   std::vector<Mode> modes = options.modes;
   if (modes.empty()) modes.assign(kAllModes.begin(), kAllModes.end());
@@ -139,6 +139,11 @@ std::vector<MatrixCell> run_matrix(const MatrixOptions& options,
     while (!under_way.empty() && go_on) collect();
   }
   return cells;
+}
+
+std::vector<MatrixCell> run_matrix(const MatrixOptions& options,
+                                   const std::function<bool(const MatrixCell&)>& done) {
+  return run_matrix(matrix_cases(), options, done);
 }
 
 }  // namespace hoof::tools

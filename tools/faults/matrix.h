@@ -35,9 +35,15 @@ struct MatrixOptions {
   int jobs = 1;
 };
 
+/// @param cases in each of the modes
 /// @param done called after each cell, in order; returns false to stop
 /// @return all cells, by mode and case, or those done before the stop
 /// @throws std::runtime_error where a mode cannot be reached without a fault
+std::vector<MatrixCell> run_matrix(const std::vector<MatrixCase>& cases,
+                                   const MatrixOptions& options,
+                                   const std::function<bool(const MatrixCell&)>& done);
+
+/// The same with all cases that there are.
 std::vector<MatrixCell> run_matrix(const MatrixOptions& options,
                                    const std::function<bool(const MatrixCell&)>& done);
 

@@ -48,7 +48,7 @@ std::string reaction_table(const Json& reaction) {
   html += row("Firmware's faults", bits.empty() ? "none" : bits);
   html += row("first told at", seconds(reaction, "tripped_s", "never"));
   html += row("no drive pushed from", seconds(reaction, "safe_s", "never"));
-  html += row("from the first fault's begin to there",
+  html += row("from the begin of the last fault before it to there",
               seconds(reaction, "from_fault_to_safe_s", "never"));
   html +=
       row("reset worked at", seconds(reaction, "reset_s", bits.empty() ? "not needed" : "never"));

@@ -28,7 +28,6 @@
     ctx.font = `${11 * devicePixelRatio}px system-ui, sans-serif`;
     ctx.setLineDash(look.dash.map((length) => length * devicePixelRatio));
     ctx.textBaseline = "top";
-    ctx.textAlign = "left";
     for (const time of times) {
       const x = plot.valToPos(time.time_s, "x", true);
       row = look.stacked && x - last < 12 * line_px ? row + 1 : 0;
@@ -38,7 +37,9 @@
       ctx.lineTo(x, bbox.top + bbox.height);
       ctx.stroke();
       const y = bbox.top + 3 * devicePixelRatio + (look.rows_down + row) * line_px;
-      ctx.fillText(time.name, x + 4 * devicePixelRatio, y);
+      const left = look.stacked && x > bbox.left + 0.75 * bbox.width;  // it would run out
+      ctx.textAlign = left ? "right" : "left";
+      ctx.fillText(time.name, x + (left ? -4 : 4) * devicePixelRatio, y);
     }
     ctx.restore();
   }
