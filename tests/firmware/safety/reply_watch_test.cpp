@@ -260,6 +260,8 @@ TEST_CASE(
         // Those of the settling are forgotten but for the last, which the others are held against.
         const bool counts = odd_one >= kSettlingReplies;
         CHECK(r.next() == (counts ? fault::kImplausibleReply : 0));
+        r.state.error = 1;  // beside it, not instead
+        CHECK(r.next() == (fault::kDriveError | (counts ? fault::kImplausibleReply : 0)));
       }
     }
   }
