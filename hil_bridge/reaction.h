@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "firmware/control/types.h"
+#include "firmware/app/telemetry.h"
 #include "sim/coupling/plant.h"
 
 namespace hoof::bridge {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <random>
 
+#include "tests/firmware/safety/replies.h"
+
 using namespace hoof::firmware;
 using namespace hoof::firmware::safety;
 using control::DriveAction;
@@ -11,48 +13,6 @@ using control::FaultBits;
 using control::JointState;
 using control::JointWish;
 namespace fault = control::fault;
-
-namespace {
-
-constexpr std::int64_t kMillisecond_ns = 1'000'000;
-
-/// One joint's replies, a millisecond apart unless said otherwise.
-struct Replies {
-  std::size_t joint = 1;
-  ReplyWatch watch;
-  JointState state;
-  JointWish passed;
-  std::int64_t now_ns = 7'000 * kMillisecond_ns;
-  bool gives_way = false;  // by the least there is: a joint whose torque changes is not on one code
-
-  explicit Replies(std::size_t which) : joint(which) {
-    state.received = state.referenced = true;
-    place(joint == 2 ? -1.0f : 0.0f);
-    watch.start(now_ns);
-    for (int i = 0; i < 3; ++i) REQUIRE(next() == 0);
-  }
-
-  void place(float position_rad) { state.position_rad = state.reading_rad = position_rad; }
-
-  FaultBits look(std::uint32_t ticks = 1) {
-    return watch.inspect(kLimits[joint], kDrives[joint], state, passed, now_ns, ticks);
-  }
-
-  FaultBits next(std::uint32_t ticks = 1, std::int64_t elapsed_ns = kMillisecond_ns) {
-    now_ns += elapsed_ns;
-    state.received_ns = now_ns;
-    if (gives_way) state.reading_rad += state.reading_rad > 0.0f ? -1e-6f : 1e-6f;
-    return look(ticks);
-  }
-
-  FaultBits next_at(float reading_rad, float velocity_rad_s) {
-    state.reading_rad = reading_rad;
-    state.velocity_rad_s = velocity_rad_s;
-    return next();
-  }
-};
-
-}  // namespace
 
 TEST_CASE("Just inside its bounds a reply passes, just beyond it does not") {
   for (std::size_t joint = 0; joint < 3; ++joint) {
@@ -212,57 +172,6 @@ TEST_CASE("A reading that stands still while its speed does not is found, and ho
       while (r.next() == 0 && ticks < 1000) ++ticks;
       INFO("joint " << joint << " speed " << speed_rad_s << " ticks " << ticks);
       CHECK(std::abs(ticks + 1 - due) <= 1);  // rounding of readings near the bound
-    }
-  }
-}
-
-TEST_CASE("A reading on one code while the torque changes is found, from the eleventh reply on") {
-  for (std::size_t joint = 0; joint < 3; ++joint) {
-    for (const float sign : {-1.0f, 1.0f}) {
-      CAPTURE(joint, sign);
-      const float bound_Nm = kLimits[joint].stuck_Nm;
-      const auto settle = [&](Replies& r, float torque_Nm) {
-        FaultBits found = 0;
-        for (int i = 0; i < 50; ++i) {
-          r.state.torque_Nm = i % 2 == 0 ? 0.0f : sign * torque_Nm;
-          found |= r.next();
-        }
-        return found;
-      };
-      Replies inside(joint), beyond(joint), moves(joint);
-      CHECK(settle(inside, bound_Nm) == 0);
-      CHECK(settle(beyond, 1.01f * bound_Nm) == fault::kImplausibleReply);
-      // A code of motion now and then is enough.
-      for (int i = 0; i < 50; ++i) {
-        moves.state.torque_Nm = i % 2 == 0 ? 0.0f : sign * 2.0f * bound_Nm;
-        if (i % 5 == 0) moves.place(moves.state.reading_rad + 4e-4f);
-        CHECK(moves.next() == 0);
-      }
-    }
-  }
-}
-
-TEST_CASE(
-    "A torque that has brought a rotor to rest does not count, one from the fifth reply on does") {
-  for (std::size_t joint = 0; joint < 3; ++joint) {
-    for (const float sign : {-1.0f, 1.0f}) {
-      const float far_Nm = sign * 2.0f * kLimits[joint].stuck_Nm;
-      // One reply with another torque: which of those on one code it is decides.
-      for (int odd_one = 1; odd_one <= kStuckReplies + 1; ++odd_one) {
-        CAPTURE(joint, sign, odd_one);
-        Replies r(joint);
-        r.place(r.state.reading_rad + 4e-4f);
-        for (int reply = 1; reply <= kStuckReplies; ++reply) {
-          r.state.torque_Nm = reply == odd_one ? far_Nm : 0.0f;
-          REQUIRE(r.next() == 0);
-        }
-        r.state.torque_Nm = odd_one == kStuckReplies + 1 ? far_Nm : 0.0f;
-        // Those of the settling are forgotten but for the last, which the others are held against.
-        const bool counts = odd_one >= kSettlingReplies;
-        CHECK(r.next() == (counts ? fault::kImplausibleReply : 0));
-        r.state.error = 1;  // beside it, not instead
-        CHECK(r.next() == (fault::kDriveError | (counts ? fault::kImplausibleReply : 0)));
-      }
     }
   }
 }

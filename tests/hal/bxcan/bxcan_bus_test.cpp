@@ -190,9 +190,9 @@ TEST_CASE("bxCAN withdraws what waits under one identifier, and nothing else") {
   CHECK(rig.bus.send(data_frame(0x022)) == SendResult::kFull);
   rig.bus.withdraw(0x022);
   REQUIRE(rig.bus.send(data_frame(0x022, {4})) == SendResult::kQueued);
+  CHECK(rig.can.transmit()->low == 3);  // extended: its first eleven bits are 0
   CHECK(rig.can.transmit()->low == 4);
   CHECK(rig.can.transmit()->low == 2);
-  CHECK(rig.can.transmit()->low == 3);
   CHECK_FALSE(rig.can.transmit());
   rig.bus.withdraw(0x022);  // nothing is left of it
   CHECK(rig.bus.send(data_frame(0x022)) == SendResult::kQueued);
