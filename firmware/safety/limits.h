@@ -107,12 +107,13 @@ inline constexpr std::uint32_t kLongestGap_ticks = 20;
 /// A drive that does not follow for so many ticks more than it does has lost its torque.
 inline constexpr int kNotFollowingTicks = 100;
 
-/// So many replies of one reading make it a still one: 20 Nm more than friction turn a free rotor of
-/// the leg by 40 codes in ten ticks, 3 Nm that of a toe by 30.
+/// So many replies of one reading make it a still one: 20 Nm more than friction turn a free rotor
+/// of the leg by 40 codes in ten ticks, 3 Nm that of a toe by 30.
 inline constexpr int kStuckReplies = 10;
 
 /// The first ones do not count: what brings a rotor to rest, or turns it back, acts on one code for
-/// two ticks each way (those 20 Nm: 1.6 codes).
+/// two ticks each way (those 20 Nm: 1.6 codes). Measured on grains and on rigid ground, over all
+/// still readings: 1.1 Nm (toe) and 16 Nm (leg).
 inline constexpr int kSettlingReplies = 4;
 
 /// Without a reply, or without SYNC, for so long, the foot stops. The drives drop their torque
