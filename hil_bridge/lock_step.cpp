@@ -80,8 +80,13 @@ void LockStep::exchange() {
     torques_.mean_Nm[j] += torque * double(exchange_ns_) / double(kTick_ns);
     torques_.peak_Nm[j] = std::max(torques_.peak_Nm[j], std::abs(torque));
     const sim::Drive* drive = experiment_.plant().drive(sim::Joint(j));
-    if (drive && std::abs(drive->motor_torque_Nm()) >= drive->settings().torque_limit_Nm) {
+    if (drive == nullptr) continue;
+    const double motor_Nm = drive->motor_torque_Nm();
+    if (std::abs(motor_Nm) >= drive->settings().torque_limit_Nm) {
       torques_.limited_s[j] += double(exchange_ns_) * 1e-9;
+    }
+    if (motor_Nm * drive->rotor_velocity_rad_s() >= 0) {
+      torques_.push_Nm[j] = std::max(torques_.push_Nm[j], std::abs(motor_Nm));
     }
   }
   clock_.advance_to(clock_.now_ns() + exchange_ns_);

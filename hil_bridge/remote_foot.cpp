@@ -36,6 +36,11 @@ bool is_reply(const hal::CanFrame& frame) {
           message->sender == Node::kKneeDrive);
 }
 
+bool is_command(const MessageSpec& message) {
+  return message.receiver == Node::kToeDrive || message.receiver == Node::kHipDrive ||
+         message.receiver == Node::kKneeDrive;
+}
+
 }  // namespace
 
 RemoteFoot::RemoteFoot(RemoteLine& line, std::array<hal::CanBus*, kBusCount> buses,
@@ -167,6 +172,8 @@ bool RemoteFoot::take(int interface, const hal::CanFrame& frame, std::int64_t ti
   const int bus = line_.one_interface() ? (on_bus0 ? 0 : 1) : interface;
   if (message != nullptr && message->sender == Node::kFoot) {
     telemetry_.take(frame, clock_.now_ns());
+    // As the firmware does where it can: a socket cannot call back what it was given.
+    if (is_command(*message)) buses_[bus]->withdraw(frame.id);
     put_on_wire(bus, frame);
   } else if (visitors_frames_.size() < kMostVisitors) {
     if (visitors_[bus]->send(frame) == hal::SendResult::kQueued) visitors_frames_.push_back(frame);

@@ -34,6 +34,7 @@ void add_options(CLI::App& app, BridgeOptions& options) {
   add_fault_options(app, options.faults);
   add_run_options(app, options.run);
   app.footer(
+      fault_help() +
       "The firmware must be on the bus already; its parameters are set from here, over the bus.\n"
       "Examples:\n"
       "  hoof-firmware --bus vcan0 --clock lock-step &\n"

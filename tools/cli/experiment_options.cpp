@@ -151,8 +151,10 @@ std::string examples(Experiment experiment) {
            "  hoof sinkage\n"
            "  hoof sinkage --foot traditional --load 40 --speed 0.1 --bed bench --seed 3\n"
            "  hoof sinkage --foot bionic --toe 30 --load 400N --out runs/toe-30 --force\n"
-           "  hoof sinkage --terrain rigid --faults faults.toml\n"
-           "  hoof sinkage --terrain rft --soil soil.toml\n"
+           "  hoof sinkage --terrain rigid --faults tools/faults/example.toml
+"
+           "  hoof sinkage --terrain rft --soil soil.toml
+"
            "  hoof sinkage --resume runs/toe-30.resume\n"
            "  hoof sinkage --bus vcan0                          firmware and plant as two "
            "processes\n"
@@ -285,7 +287,7 @@ void add_experiment_options(CLI::App& command, ExperimentOptions& options, Exper
   add_fault_options(command, options.faults);
   add_run_options(command, options.run);
   add_resume_options(command, options);
-  command.footer(examples(experiment));
+  command.footer(fault_help() + examples(experiment));
 }
 
 std::vector<std::string> settings_overrides(const ExperimentOptions& options) {

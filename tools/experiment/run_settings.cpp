@@ -9,6 +9,7 @@
 #include "sim/config/config_error.h"
 #include "sim/config/reader.h"
 #include "sim/config/suggestion.h"
+#include "tools/experiment/run_bus.h"
 #include "tools/run/csv_writer.h"
 #include "tools/run/errors.h"
 
@@ -159,7 +160,10 @@ void merge_faults(const std::string& fault_file, sim::Settings& tree) {
 
 void read_faults(RunSettings& run) {
   run.faults = bridge::read_faults(run.tree);
-  for (const bridge::FaultSpec& fault : run.faults) bridge::find_target(fault, run.has_drives());
+  for (const bridge::FaultSpec& fault : run.faults) {
+    bridge::find_target(fault, run.has_drives());
+    if (run.bus != kInProcess && bridge::needs_board(fault)) bridge::refuse_without_board(fault);
+  }
 }
 
 }  // namespace

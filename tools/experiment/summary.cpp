@@ -93,11 +93,13 @@ Json faults(const bridge::SessionResult& session) {
 
 Json reaction(const bridge::SessionResult& session) {
   const bridge::Reaction& r = *session.reaction;
-  std::optional<double> first_s, until_safe_s;
+  // Of the fault that began last before the firmware told one: those before it were borne.
+  std::optional<double> cause_s, until_safe_s;
   for (const bridge::FaultOutcome& fault : session.faults) {
-    if (fault.began_s && (!first_s || *fault.began_s < *first_s)) first_s = fault.began_s;
+    const bool before = fault.began_s && (!r.tripped_s || *fault.began_s <= *r.tripped_s);
+    if (before && (!cause_s || *fault.began_s > *cause_s)) cause_s = fault.began_s;
   }
-  if (first_s && r.safe_s) until_safe_s = std::max(0.0, *r.safe_s - *first_s);
+  if (cause_s && r.safe_s) until_safe_s = std::max(0.0, *r.safe_s - *cause_s);
   return {{"faults", bridge::fault_bit_names(r.faults)},
           {"ended_by", session.ended_by},
           {"tripped_s", seconds(r.tripped_s)},
@@ -122,16 +124,19 @@ Json firmware_identity(const RunSettings& run) {
 
 void print_faults(const Json& result) {
   if (!result.contains("reaction")) return;
+  const auto time_of = [](const Json& values, const char* key) {
+    char text[32] = "never";
+    const Json& time_s = values[key];
+    if (!time_s.is_null()) std::snprintf(text, sizeof text, "%.3f s", time_s.get<double>());
+    return std::string(text);
+  };
   for (const auto& [name, fault] : result["faults"].items()) {
-    std::printf("%s: from %.3f s on, changed %s\n", name.c_str(), fault["began_s"].get<double>(),
+    std::printf("%s: from %s to %s, changed %s\n", name.c_str(), time_of(fault, "began_s").c_str(),
+                fault["ended_s"].is_null() ? "the end" : time_of(fault, "ended_s").c_str(),
                 fault["changed"].dump().c_str());
   }
   const Json& r = result["reaction"];
-  const auto time = [&r](const char* key) {
-    char text[32] = "never";
-    if (!r[key].is_null()) std::snprintf(text, sizeof text, "%.3f s", r[key].get<double>());
-    return std::string(text);
-  };
+  const auto time = [&](const char* key) { return time_of(r, key); };
   const auto bits = r["faults"].get<std::string>();
   if (bits.empty()) {
     std::printf("firmware: no fault; mode %s\n", r["mode"].get<std::string>().c_str());
