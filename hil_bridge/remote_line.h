@@ -20,11 +20,16 @@ class RemoteLine {
   bool one_interface() const { return bus1_ == nullptr; }
   hal::SocketCanBus& bus(int index) { return index == 1 && bus1_ ? *bus1_ : *bus0_; }
 
+  /// Frames given to a bus wait here until now. @return false where an interface takes no more
+  bool flush();
+
   /// Frames that the kernel lost on the way here; only known with the next frame.
   std::uint64_t dropped() const;
 
-  /// Waits for a heartbeat with this program's protocol hash.
-  /// @throws std::runtime_error where none comes within the time, or one with another hash
+  /// Waits for a heartbeat with this program's protocol hash, and a moment longer for those of a
+  /// second foot.
+  /// @throws std::runtime_error where none comes within the time, or one with another hash, or
+  /// there are two feet
   void await_heartbeat(std::int64_t timeout_ns);
 
   /// True as soon as a heartbeat comes, with whatever protocol hash.

@@ -32,9 +32,12 @@ class InProcessWires final : public Wires {
 
   void advance_to(std::int64_t t_ns) override {
     for (const auto& bus : buses_) bus->advance_to(t_ns);
-    std::stable_sort(seen_.begin(), seen_.end(), [](const Seen& a, const Seen& b) {
-      return a.frame.stamp_ns < b.frame.stamp_ns;
-    });
+    if (seen_.empty()) return;
+    if (seen_.size() > 1) {
+      std::stable_sort(seen_.begin(), seen_.end(), [](const Seen& a, const Seen& b) {
+        return a.frame.stamp_ns < b.frame.stamp_ns;
+      });
+    }
     frames_ += seen_.size();
     if (observer_) {
       for (const Seen& s : seen_) observer_(s.bus, s.frame);

@@ -70,7 +70,10 @@ RunBus::RunBus(const RunSettings& run, const BusChoice& choice) : run_(run), cho
 bridge::Wires& RunBus::start(bridge::Wires::Observer observer) {
   if (remote()) {
     parameters_changed_ = line_->pass_parameters(run_.parameters, nanoseconds(choice_.patience_s));
-    if (choice_.real_time) require_presence();
+    if (choice_.real_time) {
+      require_presence();
+      line_.reset();  // nobody would read it any more
+    }
   }
   wires_ = remote() && choice_.real_time ? bridge::socketcan_wires(run_.bus, std::move(observer))
                                          : bridge::in_process_wires(std::move(observer));

@@ -41,12 +41,12 @@ class RunBus {
   std::string text() const;
 
  private:
-  bool remote() const { return line_ != nullptr; }
+  bool remote() const { return run_.bus != kInProcess; }
   void require_presence() const;
 
   const RunSettings& run_;
   BusChoice choice_;
-  std::unique_ptr<bridge::RemoteLine> line_;  // null in one process
+  std::unique_ptr<bridge::RemoteLine> line_;  // null in one process, and once real time began
   std::unique_ptr<bridge::Wires> wires_;
   std::unique_ptr<bridge::RealTimePace> pace_;
   std::vector<std::string> refused_;  // of what real time asks of the system

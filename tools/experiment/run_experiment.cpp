@@ -208,6 +208,7 @@ class Run {
     } catch (const std::runtime_error& error) {
       progress_->finish();
       recorder_->close();
+      std::cerr << bus_->text();  // in real time, how late the machine was may be the reason
       const std::filesystem::path kept = folder_->keep_as("failed");
       throw CannotFinish(std::string(error.what()) + "; samples and bus log are kept in " +
                          kept.string() + checkpoint_kept());

@@ -15,6 +15,7 @@ constexpr std::int64_t kStandingSleep_ns = 50'000'000;
 std::unique_ptr<hal::SocketCanBus> open(const std::string& interface) {
   hal::SocketCanSettings settings;
   settings.interface = interface;
+  settings.batched = true;
   return std::make_unique<hal::SocketCanBus>(settings);
 }
 
@@ -59,8 +60,9 @@ void LockStepFoot::run(const std::atomic<bool>& interrupted) {
       continue;
     }
     listen(kStandingSleep_ns);
-    if (wall_.now_ns() - heard_ns_ > patience_ns_) run_on("the simulator is silent");
+    mind_silence();
   }
+  if (!clock_.running()) send_now(hal::lock_step::end());
   clock_.run_on();
   loop_->request_stop();
   do {
@@ -68,12 +70,38 @@ void LockStepFoot::run(const std::atomic<bool>& interrupted) {
   } while (!drives_off(loop_->mode()));
   for (const auto& bus : buses_) bus->allow(hal::lock_step::kMostFree, false);
   loop_->release_drives();
+  flush();
+}
+
+/// Asks for the time only where nothing was heard, as lock-step has thousands of turns a second.
+void LockStepFoot::mind_silence() {
+  if (heard_) {
+    heard_ = false;
+    silent_since_ns_.reset();
+  } else if (!silent_since_ns_) {
+    silent_since_ns_ = wall_.now_ns();
+  } else if (wall_.now_ns() - *silent_since_ns_ > patience_ns_) {
+    run_on("the simulator is silent");
+  }
+}
+
+/// Bus 1 first: what tells the simulator to look is on bus 0.
+void LockStepFoot::flush() {
+  if (socket1_) socket1_->flush();
+  socket0_->flush();
+}
+
+void LockStepFoot::send_now(const hal::CanFrame& frame) {
+  socket0_->send(frame);
+  flush();
 }
 
 void LockStepFoot::free_step() {
   for (const auto& bus : buses_) bus->allow(hal::lock_step::kMostFree, false);
   listen(kFreeSleep_ns);
-  if (clock_.running()) loop_->poll();
+  if (!clock_.running()) return;
+  loop_->poll();
+  flush();
 }
 
 void LockStepFoot::listen(std::int64_t longest_ns) {
@@ -96,7 +124,7 @@ void LockStepFoot::take(const hal::CanFrame& frame) {
     buses_[bus0 ? 0 : 1]->put(frame);
     return;
   }
-  heard_ns_ = wall_.now_ns();
+  heard_ = true;
   if (hal::lock_step::is_begin(frame)) {
     begin();
   } else if (hal::lock_step::is_end(frame)) {
@@ -132,7 +160,7 @@ void LockStepFoot::answer(std::int64_t time_ns) {
   if (wait_us < hal::lock_step::Done::kNever_us) {
     done.due_in_us = wait_us > 0 ? static_cast<std::uint32_t>(wait_us) : 0;
   }
-  socket0_->send(encode(done));
+  send_now(encode(done));
 }
 
 void LockStepFoot::run_on(const char* why) {

@@ -62,9 +62,9 @@ hoof::hal::SocketCanSettings connection(const std::string& interface, std::size_
   return settings;
 }
 
-void say_stopped(const app::ControlLoop& loop) {
+void say_stopped(const app::ControlLoop& loop, std::uint64_t lost_frames) {
   std::cerr << "hoof-firmware: stopped after " << loop.telemetry().counters.ticks
-            << " ticks, drives off\n";
+            << " ticks, drives off; " << lost_frames << " frames lost by the kernel\n";
 }
 
 int start(const board::Options& options) {
@@ -82,7 +82,7 @@ int start(const board::Options& options) {
   if (options.lock_step) {
     board::LockStepFoot foot(options, parameters, kept);
     foot.run(interrupted);
-    say_stopped(foot.loop());
+    say_stopped(foot.loop(), foot.dropped());
     return 0;
   }
   hoof::hal::SocketCanBus bus0(connection(options.bus0, 0));
@@ -91,7 +91,7 @@ int start(const board::Options& options) {
   hoof::hal::SoftBoard board;
   app::ControlLoop loop({&bus0, &bus1}, clock, board, parameters, kept);
   run(loop, bus0);
-  say_stopped(loop);
+  say_stopped(loop, bus0.status().dropped + bus1.status().dropped);
   return 0;
 }
 
