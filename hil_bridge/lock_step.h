@@ -61,7 +61,7 @@ class LockStep {
  private:
   void send_sync();
   void poll_nodes();
-  void exchange();
+  void exchange(bool first, bool last);
 
   sim::Experiment& experiment_;
   Wires& wires_;

@@ -6,7 +6,6 @@
 #include "firmware/protocol/codec.h"
 #include "firmware/protocol/protocol_hash.h"
 #include "hal/monotonic_clock.h"
-#include "hil_bridge/service_client.h"
 
 namespace hoof::bridge {
 namespace {
@@ -49,12 +48,13 @@ std::uint64_t RemoteLine::dropped() const {
   return bus0_->status().dropped + (bus1_ ? bus1_->status().dropped : 0);
 }
 
-void RemoteLine::await_heartbeat(std::int64_t timeout_ns) {
+void RemoteLine::await_heartbeat(std::int64_t timeout_ns, const std::function<bool()>& stopped) {
   const hal::MonotonicClock clock;
   std::int64_t give_up_ns = clock.now_ns() + timeout_ns;
   std::optional<std::uint8_t> counter;
   hal::CanFrame frame;
   while (clock.now_ns() < give_up_ns) {
+    if (stopped && stopped()) throw std::runtime_error(name_ + ": stopped while waiting for a foot");
     bus0_->wait(kLook_ns);
     while (bus0_->receive(frame)) {
       firmware::protocol::Heartbeat heartbeat;
@@ -99,6 +99,18 @@ std::vector<std::string> RemoteLine::pass_parameters(const firmware::app::Parame
   const hal::MonotonicClock clock;
   ServiceClient client(
       *bus0_, clock, [this] { bus0_->wait(kLook_ns); }, kSupervisorId, timeout_ns);
+  try {
+    return pass_parameters(client, parameters);
+  } catch (const ServiceError& error) {
+    throw std::runtime_error(name_ + ": " + error.what() +
+                             "; parameters are set in mode off only, which a foot leaves by an "
+                             "e-stop or a fault until `hoof command reset --bus " +
+                             name_ + "`");
+  }
+}
+
+std::vector<std::string> RemoteLine::pass_parameters(
+    ServiceClient& client, const firmware::app::Parameters& parameters) const {
   client.connect();
   firmware::app::Parameters wanted = parameters;
   std::vector<std::string> changed;

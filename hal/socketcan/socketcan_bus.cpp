@@ -178,7 +178,8 @@ void SocketCanBus::configure() {
   if (!set_option(fd_, SOL_SOCKET, SO_RCVBUFFORCE, settings_.receive_buffer_bytes)) {
     set_option(fd_, SOL_SOCKET, SO_RCVBUF, settings_.receive_buffer_bytes);
   }
-  if (!settings_.batched && !set_option(fd_, SOL_SOCKET, SO_TIMESTAMPNS, 1)) {
+  if (settings_.batched) settings_.stamps = false;
+  if (settings_.stamps && !set_option(fd_, SOL_SOCKET, SO_TIMESTAMPNS, 1)) {
     fail("time stamps were refused", errno);
   }
   if (!set_option(fd_, SOL_SOCKET, SO_RXQ_OVFL, 1)) fail("drop counts were refused", errno);
@@ -251,7 +252,7 @@ bool SocketCanBus::take(const KernelFrame& raw, CanFrame& frame) {
     return false;
   }
   frame = from_kernel(raw.raw, raw.length == static_cast<ssize_t>(CANFD_MTU));
-  if (!batch_) frame.stamp_ns = monotonic_stamp_ns(raw.realtime_stamp_ns);
+  if (settings_.stamps) frame.stamp_ns = monotonic_stamp_ns(raw.realtime_stamp_ns);
   ++status_.received;
   return true;
 }

@@ -33,6 +33,7 @@ struct SocketCanSettings {
   std::string interface = "vcan0";
   std::vector<CanFilter> filters;  // empty: everything
   bool fd = false;                 // also CAN FD frames; needs an interface with an MTU of 72
+  bool stamps = true;              // false: received frames bear stamp 0, for two calls less each
   bool batched = false;            // several frames a system call, no stamps; see above
   /// Asked of the kernel. 4 MiB hold about 5,000 waiting frames, as one costs about 800 bytes of
   /// kernel memory; ordinary users get at most net.core.rmem_max, which is reported by

@@ -25,6 +25,14 @@ echo "candump heard $heard frames of $sent"
 check "candump heard frames" test "$heard" -gt 100
 check "with SYNC among them" grep -q ' 010#' "$folder/heard.log"
 
+# cansniffer shows the identifiers of a run.
+"$hoof" sinkage --terrain rigid --bus vcan0 --quiet --out "$folder/sniffed" >"$folder/sniff.txt" 2>&1 &
+run=$!
+(sleep 3; printf 'q\n') | timeout 10 cansniffer vcan0 >"$folder/sniffer.out" 2>&1
+wait "$run"
+check "a run beside cansniffer ends well" test $? -eq 0
+check "cansniffer shows SYNC" grep -aq '010' "$folder/sniffer.out"
+
 # log2asc reads our log: a line for each frame, and its head.
 log2asc -I "$folder/run/bus.log" -O "$folder/run.asc" can0 can1 vcan0
 check "log2asc takes every frame" test "$(grep -c ' Rx ' "$folder/run.asc")" -eq "$sent"
@@ -40,8 +48,9 @@ cut -d' ' -f3 "$folder/part.log" >"$folder/a"
 cut -d' ' -f3 "$folder/again.log" >"$folder/b"
 check "canplayer and candump give the log again" cmp -s "$folder/a" "$folder/b"
 
-# cansend presses the e-stop, again and again until the run is over: it ends, and says why.
-(while sleep 0.02; do cansend vcan0 001#010000; done) &
+# cansend presses the e-stop once the run goes, again and again until it is over: it ends, and says
+# why.
+(candump -n 1 vcan0,010:7FF >/dev/null; while sleep 0.02; do cansend vcan0 001#010000; done) &
 presser=$!
 "$hoof" sinkage --terrain rigid --bus vcan0 --quiet --out "$folder/stopped" >"$folder/stop.txt" 2>&1
 status=$?

@@ -60,11 +60,13 @@ void check_bus_choice(const RunSettings& run, const BusChoice& choice) {
   }
 }
 
-RunBus::RunBus(const RunSettings& run, const BusChoice& choice) : run_(run), choice_(choice) {
+RunBus::RunBus(const RunSettings& run, const BusChoice& choice,
+               const std::function<bool()>& stopped)
+    : run_(run), choice_(choice) {
   check_bus_choice(run, choice);
   if (run.bus == kInProcess) return;
   line_ = std::make_unique<bridge::RemoteLine>(run.bus);
-  line_->await_heartbeat(nanoseconds(choice.patience_s));
+  line_->await_heartbeat(nanoseconds(choice.patience_s), stopped);
 }
 
 bridge::Wires& RunBus::start(bridge::Wires::Observer observer) {

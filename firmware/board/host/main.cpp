@@ -56,6 +56,7 @@ void run(app::ControlLoop& loop, hoof::hal::SocketCanBus& bus0) {
 hoof::hal::SocketCanSettings connection(const std::string& interface, std::size_t bus_index) {
   hoof::hal::SocketCanSettings settings;
   settings.interface = interface;
+  settings.stamps = false;  // the loop goes by when it reads a frame
   app::for_each_received_id(bus_index, [&settings](std::uint32_t id) {
     settings.filters.push_back({.id = id, .mask = 0x7FF});
   });

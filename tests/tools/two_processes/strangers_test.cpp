@@ -213,7 +213,7 @@ TEST_CASE("hoof param and hoof faults speak with a running hoof-firmware") {
   CHECK(get.output.find("123") != std::string::npos);
   const Outcome wrong = hoof({"param", "set", "toe_kp_Nm_rad=1e9"});
   CAPTURE(wrong.errors);
-  CHECK(wrong.status != 0);
+  CHECK(wrong.status == 2);
   CHECK(wrong.errors.find("toe_kp_Nm_rad") != std::string::npos);
 
   // The e-stop is a fault that the log keeps.
@@ -224,7 +224,15 @@ TEST_CASE("hoof param and hoof faults speak with a running hoof-firmware") {
   CAPTURE(faults.errors, faults.output);
   CHECK(faults.status == 0);
   CHECK(faults.output.find("emergency_stop") != std::string::npos);
-  CHECK(hoof({"faults", "--erase"}).status == 0);
+  const Outcome refused = hoof({"faults", "--erase"});  // in mode off only
+  CHECK(refused.status == 3);
+  CHECK(refused.errors.find("wrong_mode") != std::string::npos);
+  const Outcome reset = hoof({"command", "reset"});
+  CAPTURE(reset.errors, reset.output);
+  CHECK(reset.status == 0);
+  const Outcome erased = hoof({"faults", "--erase"});
+  CAPTURE(erased.errors, erased.output);
+  CHECK(erased.status == 0);
   CHECK(hoof({"faults"}).output.find("emergency_stop") == std::string::npos);
 
   // What was stored is there after a restart.
