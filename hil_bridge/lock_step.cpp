@@ -72,8 +72,8 @@ void LockStep::poll_nodes() {
 }
 
 /// What has arrived is answered, then plant and wires go on by one exchange interval. At a pace of
-/// the wall's a tick is computed at its begin, in a fraction of its time: to look for frames once is
-/// enough, and twenty looks by calls of the kernel could take longer than the tick.
+/// the wall's a tick is computed at its begin, in a fraction of its time: to look for frames once
+/// is enough, and twenty looks by calls of the kernel could take longer than the tick.
 void LockStep::exchange(bool first, bool last) {
   if (pace_ == nullptr || first) poll_nodes();
   experiment_.advance();

@@ -56,7 +56,7 @@ class RemoteFoot final : public FirmwareNode {
   std::array<std::deque<hal::CanFrame>, kBusCount> waiting_;  // for a free mailbox
   std::deque<hal::CanFrame> visitors_frames_;  // on the simulated wires, not to be forwarded
   std::int64_t due_ns_ = 0;                    // the firmware must be polled then, frames or not
-  bool left_ = false;  // it said so
+  bool left_ = false;                          // it said so
   BusTelemetry telemetry_;
   std::string lost_;
 };

@@ -54,7 +54,8 @@ void RemoteLine::await_heartbeat(std::int64_t timeout_ns, const std::function<bo
   std::optional<std::uint8_t> counter;
   hal::CanFrame frame;
   while (clock.now_ns() < give_up_ns) {
-    if (stopped && stopped()) throw std::runtime_error(name_ + ": stopped while waiting for a foot");
+    if (stopped && stopped())
+      throw std::runtime_error(name_ + ": stopped while waiting for a foot");
     bus0_->wait(kLook_ns);
     while (bus0_->receive(frame)) {
       firmware::protocol::Heartbeat heartbeat;

@@ -11,7 +11,7 @@ namespace hoof::hal {
 
 struct KernelFrame {
   canfd_frame raw{};
-  ssize_t length = 0;  // CAN_MTU or CANFD_MTU; anything else is no frame
+  ssize_t length = 0;                  // CAN_MTU or CANFD_MTU; anything else is no frame
   std::int64_t realtime_stamp_ns = 0;  // 0: none
   bool has_drops = false;
   std::uint32_t drops = 0;  // since the socket was opened

@@ -76,16 +76,16 @@ void Plant::step_drives() {
   }
 }
 
-/// The ground's wrench for the interval to come. The mean of the last interval belongs to its middle;
-/// used as it stands it would reach the rig one interval late and act like a damper of -k h / 2,
-/// which makes energy. Carried on to the end of the last interval along the line through the last two
-/// means it is as prompt as that of a ground that answers at the end; sums over time stay the same.
+/// The ground's wrench for the interval to come. The mean of the last interval belongs to its
+/// middle; used as it stands it would reach the rig one interval late and act like a damper of -k h
+/// / 2, which makes energy. Carried on to the end of the last interval along the line through the
+/// last two means it is as prompt as that of a ground that answers at the end; sums over time stay
+/// the same.
 Wrench Plant::prompt_wrench(std::size_t body) const {
   const Wrench& now = wrenches_[body];
   if (terrain_->wrench_time() == WrenchTime::kEndOfInterval) return now;
   const Wrench& before = before_[body];
-  return {1.5 * now.f_W_N - 0.5 * before.f_W_N,
-          1.5 * now.tau_Bo_W_Nm - 0.5 * before.tau_Bo_W_Nm};
+  return {1.5 * now.f_W_N - 0.5 * before.f_W_N, 1.5 * now.tau_Bo_W_Nm - 0.5 * before.tau_Bo_W_Nm};
 }
 
 void Plant::step_rig() {
@@ -100,8 +100,7 @@ void Plant::step_rig() {
     motion = {before.end, rig_->pose(static_cast<int>(body))};
     // A force held for a step changes the velocity from that of the way before to that of the way
     // now; the energy it gives is force times the mean of both.
-    exchange_energy_.work_on_rig_J +=
-        0.5 * (work_J(wrench, before) + work_J(wrench, motion));
+    exchange_energy_.work_on_rig_J += 0.5 * (work_J(wrench, before) + work_J(wrench, motion));
   }
 }
 
@@ -164,9 +163,8 @@ void Plant::guard() const {
 
 void Plant::diverged(const std::string& cause) const {
   std::ostringstream text;
-  text << "diverged at " << time_s() << " s: " << cause
-       << "; shorten coupling.exchange_us (now " << settings_.exchange_s * 1e6
-       << ") or make the foot heavier";
+  text << "diverged at " << time_s() << " s: " << cause << "; shorten coupling.exchange_us (now "
+       << settings_.exchange_s * 1e6 << ") or make the foot heavier";
   throw std::runtime_error(text.str());
 }
 

@@ -67,8 +67,7 @@ void Drive::sample_encoder(double dt_s) {
   const double difference = (position - counted_position_rad_) / dt_s;
   if (dt_s != filter_dt_s_) {
     filter_dt_s_ = dt_s;
-    filter_share_ =
-        1.0 - std::exp(-2.0 * std::numbers::pi * settings_.velocity_filter_Hz * dt_s);
+    filter_share_ = 1.0 - std::exp(-2.0 * std::numbers::pi * settings_.velocity_filter_Hz * dt_s);
   }
   sampled_velocity_rad_s_ += filter_share_ * (difference - sampled_velocity_rad_s_);
   counted_position_rad_ = sampled_position_rad_ = position;

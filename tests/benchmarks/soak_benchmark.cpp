@@ -90,9 +90,12 @@ struct Memory {
 class Soak {
  public:
   Soak(const std::string& interface, double seconds)
-      : seconds_(seconds), words_(std::filesystem::temp_directory_path() /
-                                  ("soak-" + std::to_string(getpid()) + ".txt")),
-        run_(rigid_settings("traction")), firmware_(run_, interface, words_), watch_(interface) {}
+      : seconds_(seconds),
+        words_(std::filesystem::temp_directory_path() /
+               ("soak-" + std::to_string(getpid()) + ".txt")),
+        run_(rigid_settings("traction")),
+        firmware_(run_, interface, words_),
+        watch_(interface) {}
   ~Soak() {
     std::error_code ignored;
     std::filesystem::remove(words_, ignored);

@@ -2,7 +2,7 @@
 
 #include <iostream>
 
-#include "firmware/protocol/dictionary.h"
+#include "firmware/app/received_ids.h"
 
 namespace hoof::firmware::board {
 namespace {
@@ -19,12 +19,15 @@ std::unique_ptr<hal::SocketCanBus> open(const std::string& interface) {
   return std::make_unique<hal::SocketCanBus>(settings);
 }
 
+/// Of a frame on an interface that carries both buses: replies of the leg's drives are on bus 1,
+/// all else, frames of nobody among it, counts as of bus 0.
 bool is_on_bus0(const hal::CanFrame& frame) {
   if (frame.extended) return true;
-  for (const protocol::MessageSpec& message : protocol::kMessages) {
-    if (message.id == frame.id) return (message.buses & protocol::kBus0) != 0;
+  bool on[2] = {false, false};
+  for (const std::size_t bus : {0, 1}) {
+    app::for_each_received_id(bus, [&](std::uint32_t id) { on[bus] = on[bus] || id == frame.id; });
   }
-  return true;
+  return on[0] || !on[1];
 }
 
 bool drives_off(control::Mode mode) {

@@ -101,7 +101,8 @@ struct LoneFoot {
   protocol::Mode mode = protocol::Mode::kOff;
 };
 
-/// Commands of each drive in the order of a recording: position and torque, or nothing for a switch.
+/// Commands of each drive in the order of a recording: position and torque, or nothing for a
+/// switch.
 std::map<int, std::vector<double>> positions(const fs::path& bus_log) {
   std::map<int, std::vector<double>> all;
   for (const auto& record : read_bus_log(bus_log)) {

@@ -210,8 +210,8 @@ namespace {
 /// Share of the ticks that a run in real time says it had to leave out.
 double missed_ratio(const std::string& text) {
   std::smatch found;
-  REQUIRE(std::regex_search(
-      text, found, std::regex("real time: ([0-9]+) ticks, .* ([0-9]+) ticks missed")));
+  REQUIRE(std::regex_search(text, found,
+                            std::regex("real time: ([0-9]+) ticks, .* ([0-9]+) ticks missed")));
   return std::stod(found[2]) / std::stod(found[1]);
 }
 
@@ -239,8 +239,7 @@ TEST_CASE("real time: the run comes to its end and tells how well its deadlines 
     if (outcome.status == 3) {
       // Only a machine that does not keep up is an excuse, and the run must have said so.
       REQUIRE(missed_ratio(outcome.errors) > kTooBusy);
-      WARN("attempt " << attempt << ": this machine is too busy for real time: "
-                      << outcome.errors);
+      WARN("attempt " << attempt << ": this machine is too busy for real time: " << outcome.errors);
       continue;
     }
     REQUIRE(outcome.status == 0);
