@@ -6,6 +6,7 @@
 #include <random>
 #include <regex>
 
+#include "firmware/protocol/protocol_hash.h"
 #include "hil_bridge/remote_line.h"
 #include "tests/tools/two_processes/on_vcan.h"
 
@@ -278,6 +279,15 @@ TEST_CASE("what cannot be done is said in one line") {
         run_program({"sinkage", "--bus", "nocan7", "--terrain", "rigid", "--out", out});
     CHECK(outcome.status == 3);
     CHECK(outcome.errors.find("nocan7") != std::string::npos);
+  }
+  SECTION("a foot that speaks another dictionary") {
+    bridge::RemoteLine line("vcan0");
+    hal::SocketCanBus foot(hal::SocketCanSettings{});
+    foot.send(
+        encode(protocol::Heartbeat{protocol::Mode::kOff, 1, 0, protocol::kHeartbeatHash ^ 1}));
+    CHECK_THROWS_WITH(line.await_heartbeat(2'000'000'000),
+                      Catch::Matchers::Contains("another dictionary") &&
+                          Catch::Matchers::Contains("protocol hash"));
   }
   SECTION("a foot is there already, and then a second one") {
     const auto firmware = [] {
