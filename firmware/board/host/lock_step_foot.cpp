@@ -12,6 +12,10 @@ constexpr std::int64_t kFreeSleep_ns = 500'000;
 /// While time stands there is nothing to look at but the order to end.
 constexpr std::int64_t kStandingSleep_ns = 50'000'000;
 
+/// A leg is let down within two seconds of ticks; on a machine that does not come to a thousand
+/// ticks a second the program does not outlive its user for that.
+constexpr std::int64_t kLongestStop_ns = 3'000'000'000;
+
 std::unique_ptr<hal::SocketCanBus> open(const std::string& interface) {
   hal::SocketCanSettings settings;
   settings.interface = interface;
@@ -68,9 +72,10 @@ void LockStepFoot::run(const std::atomic<bool>& interrupted) {
   if (!clock_.running()) send_now(hal::lock_step::end());
   clock_.run_on();
   loop_->request_stop();
+  const std::int64_t give_up_ns = wall_.now_ns() + kLongestStop_ns;
   do {
     free_step();
-  } while (!drives_off(loop_->mode()));
+  } while (!drives_off(loop_->mode()) && wall_.now_ns() < give_up_ns);
   for (const auto& bus : buses_) bus->allow(hal::lock_step::kMostFree, false);
   loop_->release_drives();
   flush();

@@ -28,6 +28,10 @@ void on_signal(int) {
 /// Sleeps at most this long: also without frames the loop looks at its clock every millisecond.
 constexpr std::int64_t kLongestSleep_ns = 500'000;
 
+/// A leg is let down within two seconds of ticks; on a machine that does not come to a thousand
+/// ticks a second the program does not outlive its user for that.
+constexpr std::int64_t kLongestStop_ns = 3'000'000'000;
+
 /// As on the STM32F405: two sectors of parameters, one of faults, 16 KB each.
 constexpr std::size_t kFlashSectors = 3;
 constexpr std::size_t kFlashSectorWords = 4096;
@@ -38,13 +42,14 @@ bool drives_off(control::Mode mode) {
 }
 
 /// Runs until interrupted; then lets the leg down by damping and leaves with the drives off.
-void run(app::ControlLoop& loop, hoof::hal::SocketCanBus& bus0) {
+void run(app::ControlLoop& loop, hoof::hal::SocketCanBus& bus0, const hoof::hal::Clock& clock) {
   while (!interrupted) {
     bus0.wait(kLongestSleep_ns);
     loop.poll();
   }
   loop.request_stop();
-  while (!drives_off(loop.mode())) {
+  const std::int64_t give_up_ns = clock.now_ns() + kLongestStop_ns;
+  while (!drives_off(loop.mode()) && clock.now_ns() < give_up_ns) {
     bus0.wait(kLongestSleep_ns);
     loop.poll();
   }
@@ -91,7 +96,7 @@ int start(const board::Options& options) {
   const board::ScaledClock clock(options.slow_down);
   hoof::hal::SoftBoard board;
   app::ControlLoop loop({&bus0, &bus1}, clock, board, parameters, kept);
-  run(loop, bus0);
+  run(loop, bus0, clock);
   say_stopped(loop, bus0.status().dropped + bus1.status().dropped);
   return 0;
 }
