@@ -71,9 +71,11 @@ void LockStep::poll_nodes() {
   supervisor_.poll(clock_.now_ns());
 }
 
-/// What has arrived is answered, then plant and wires go on by one exchange interval.
-void LockStep::exchange() {
-  poll_nodes();
+/// What has arrived is answered, then plant and wires go on by one exchange interval. At a pace of
+/// the wall's a tick is computed at its begin, in a fraction of its time: to look for frames once
+/// is enough, and twenty looks by calls of the kernel could take longer than the tick.
+void LockStep::exchange(bool first, bool last) {
+  if (pace_ == nullptr || first) poll_nodes();
   experiment_.advance();
   for (int j = 0; j < sim::kJointCount; ++j) {
     const double torque = experiment_.plant().joint_torque_Nm(sim::Joint(j));
@@ -90,13 +92,15 @@ void LockStep::exchange() {
     }
   }
   clock_.advance_to(clock_.now_ns() + exchange_ns_);
-  wires_.advance_to(clock_.now_ns());
+  if (pace_ == nullptr || last) wires_.advance_to(clock_.now_ns());
 }
 
 void LockStep::tick() {
   torques_ = {};
   send_sync();
-  for (std::int64_t t = 0; t < due_ticks_ * kTick_ns; t += exchange_ns_) exchange();
+  for (std::int64_t t = 0; t < due_ticks_ * kTick_ns; t += exchange_ns_) {
+    exchange(t % kTick_ns == 0, (t + exchange_ns_) % kTick_ns == 0);
+  }
   if (pace_ != nullptr) due_ticks_ = pace_->rest([this] { poll_nodes(); });
   tick_ += due_ticks_;
 }

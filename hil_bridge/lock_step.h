@@ -62,7 +62,7 @@ class LockStep {
  private:
   void send_sync();
   void poll_nodes();
-  void exchange();
+  void exchange(bool first, bool last);
 
   sim::Experiment& experiment_;
   Wires& wires_;

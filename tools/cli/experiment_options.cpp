@@ -151,10 +151,8 @@ std::string examples(Experiment experiment) {
            "  hoof sinkage\n"
            "  hoof sinkage --foot traditional --load 40 --speed 0.1 --bed bench --seed 3\n"
            "  hoof sinkage --foot bionic --toe 30 --load 400N --out runs/toe-30 --force\n"
-           "  hoof sinkage --terrain rigid --faults tools/faults/example.toml
-"
-           "  hoof sinkage --terrain rft --soil soil.toml
-"
+           "  hoof sinkage --terrain rigid --faults tools/faults/example.toml\n"
+           "  hoof sinkage --terrain rft --soil soil.toml\n"
            "  hoof sinkage --resume runs/toe-30.resume\n"
            "  hoof sinkage --bus vcan0                          firmware and plant as two "
            "processes\n"

@@ -96,10 +96,11 @@ class Run {
   /// Before anything is built: a firmware that is not there is told at once.
   void connect() {
     try {
-      bus_.emplace(run_, output_.bus);
+      bus_.emplace(run_, output_.bus, [this] { return stop_.requested(); });
     } catch (const UserError&) {
       throw;
     } catch (const std::runtime_error& error) {
+      if (stop_.requested()) throw Interrupted(error.what(), stop_.exit_status());
       throw CannotFinish(error.what());
     }
   }
@@ -208,6 +209,7 @@ class Run {
     } catch (const std::runtime_error& error) {
       progress_->finish();
       recorder_->close();
+      std::cerr << bus_->text();  // in real time, how late the machine was may be the reason
       const std::filesystem::path kept = folder_->keep_as("failed");
       throw CannotFinish(std::string(error.what()) + "; samples and bus log are kept in " +
                          kept.string() + checkpoint_kept());
