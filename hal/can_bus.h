@@ -32,6 +32,11 @@ class CanBus {
  public:
   virtual SendResult send(const CanFrame& frame) = 0;
 
+  /// Gives up what still waits to be sent under this standard identifier, so that a frame which is
+  /// out of date does not go out behind a busy bus. One on the wire ends. Does nothing where frames
+  /// cannot be called back (a kernel's queue).
+  virtual void withdraw(std::uint32_t) {}
+
   /// Takes the oldest received frame, stamped with its arrival (end of frame) time.
   /// @return false when nothing waits; `frame` is then unchanged.
   virtual bool receive(CanFrame& frame) = 0;

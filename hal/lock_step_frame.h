@@ -12,6 +12,7 @@
 //                                          next
 //   frames that arrived, Go(t)             ->    clock to t, poll; nothing can come of it
 //   End                                    ->    the wall's clock again
+//                                          <-    End, where the firmware leaves by itself
 #pragma once
 
 #include <algorithm>

@@ -15,7 +15,8 @@ struct BusLogSettings {
 };
 
 /// Writes whole lines at a time: a run that is killed leaves a log that can be read up to its last
-/// 10 ms of simulated time or 64 KiB, whichever is less.
+/// 10 ms of simulated time or 64 KiB, whichever is less. Only where it is killed in the very write
+/// can the last line be cut; CandumpReader leaves such a line out.
 class BusLogWriter {
  public:
   /// Creates the file, or empties it. Whether an earlier one may be replaced is the caller's

@@ -236,6 +236,12 @@ std::optional<CandumpRecord> parse_candump_line(std::string_view line, int line_
 std::optional<CandumpRecord> CandumpReader::next() {
   while (std::getline(input_, line_)) {
     ++line_number_;
+    // The kernel may end a write of a killed program between two pages, within a line. What is left
+    // of that may still look like a frame, with fewer bytes than it had.
+    if (input_.eof()) {
+      cut_ = true;
+      return std::nullopt;
+    }
     if (auto record = parse_candump_line(line_, line_number_, source_)) return record;
   }
   return std::nullopt;

@@ -53,7 +53,8 @@ void append_candump_line(std::string& out, std::int64_t stamp_ns, std::string_vi
 std::optional<CandumpRecord> parse_candump_line(std::string_view line, int line_number,
                                                 const std::string& source = "candump");
 
-/// Reads a log line by line.
+/// Reads a log line by line. A last line without its newline is no record: a program that was
+/// killed while it wrote has left it.
 class CandumpReader {
  public:
   /// @param source name used in errors, such as the file's path
@@ -65,12 +66,15 @@ class CandumpReader {
   std::optional<CandumpRecord> next();
 
   int line_number() const { return line_number_; }
+  /// True once such a last line was left out.
+  bool cut() const { return cut_; }
 
  private:
   std::istream& input_;
   std::string source_;
   std::string line_;
   int line_number_ = 0;
+  bool cut_ = false;
 };
 
 }  // namespace hoof::bridge

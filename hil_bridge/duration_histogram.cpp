@@ -29,7 +29,10 @@ std::vector<std::pair<std::int64_t, std::uint64_t>> DurationHistogram::octaves()
   for (std::int64_t upper = 1; first <= kRange_us; upper *= 2) {
     std::uint64_t sum = 0;
     for (; first <= std::min(upper, kRange_us); ++first) sum += bins_[std::size_t(first)];
-    if (sum > 0 || !result.empty()) result.emplace_back(upper, sum);
+    // The last bin holds all that is longer than the range: its end is the longest of them.
+    const bool last = upper > kRange_us;
+    const std::int64_t end_us = last ? std::max(upper, (max_ns_ + 999) / 1000) : upper;
+    if (sum > 0 || !result.empty()) result.emplace_back(end_us, sum);
   }
   while (!result.empty() && result.back().second == 0) result.pop_back();
   return result;

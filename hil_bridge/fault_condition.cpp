@@ -1,6 +1,7 @@
 #include "hil_bridge/fault_condition.h"
 
 #include <charconv>
+#include <cmath>
 #include <sstream>
 #include <stdexcept>
 
@@ -33,14 +34,6 @@ constexpr NamedSignal kSignals[] = {
     {"phase_cycles", [](Record r) { return double(r.firmware.phase_cycles); }},
 };
 
-std::string signal_names() {
-  std::string names;
-  for (const NamedSignal& s : kSignals) {
-    names += (names.empty() ? "" : ", ") + std::string(s.name);
-  }
-  return names;
-}
-
 double mode_number(const std::string& name) {
   std::string names;
   for (const firmware::protocol::ValueName& mode : firmware::protocol::kModeNames) {
@@ -53,7 +46,9 @@ double mode_number(const std::string& name) {
 double number(const std::string& text) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) {
+  // Nothing compares with a "nan", which from_chars() takes.
+  const bool whole = error == std::errc() && end == text.data() + text.size();
+  if (!whole || !std::isfinite(value)) {
     throw std::invalid_argument("'" + text + "' is not a number");
   }
   return value;
@@ -81,6 +76,14 @@ FaultCondition::FaultCondition(std::string_view text) : text_(text) {
                                 "'; there are >, >=, <, <=, ==, !=");
   }
   value_ = name == kMode ? mode_number(value) : number(value);
+}
+
+std::string FaultCondition::signal_names() {
+  std::string names;
+  for (const NamedSignal& s : kSignals) {
+    names += (names.empty() ? "" : ", ") + std::string(s.name);
+  }
+  return names;
 }
 
 bool FaultCondition::holds(const TickRecord& record) const {

@@ -14,6 +14,9 @@ class FaultCondition {
   /// @throws std::invalid_argument saying what is wrong and what is known
   explicit FaultCondition(std::string_view text);
 
+  /// All signals there are, "time_s, tick, ...".
+  static std::string signal_names();
+
   bool holds(const TickRecord& record) const;
   const std::string& text() const { return text_; }
 

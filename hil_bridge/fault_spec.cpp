@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "hil_bridge/wires.h"
+#include "sim/config/config_error.h"
 #include "sim/config/reader.h"
 
 namespace hoof::bridge {
@@ -19,9 +21,7 @@ FaultKind read_kind(Reader& section) {
   section.text("kind", name);
   const auto found = std::find(kFaultKindNames.begin(), kFaultKindNames.end(), name);
   if (found != kFaultKindNames.end()) return FaultKind(found - kFaultKindNames.begin());
-  std::string all;
-  for (const char* kind : kFaultKindNames) all += (all.empty() ? "" : ", ") + std::string(kind);
-  section.fail("kind", "must be one of " + all);
+  section.fail("kind", "must be one of " + fault_kind_names());
 }
 
 void read_start(Reader& section, FaultSpec& fault) {
@@ -146,6 +146,26 @@ FaultSpec read_fault(Reader section, const std::string& key, const sim::Settings
 
 std::string FaultSpec::name() const {
   return key + " (" + kFaultKindNames[std::size_t(kind)] + " " + target + ")";
+}
+
+bool needs_board(const FaultSpec& fault) {
+  if (fault.kind == FaultKind::kEstop) return fault.target == "line";
+  if (fault.kind == FaultKind::kNodeRestart) return fault.target == kFootNode;
+  return fault.kind == FaultKind::kBrownOut;
+}
+
+void refuse_without_board(const FaultSpec& fault) {
+  throw sim::ConfigError(fault.origin.text() + ": " + fault.name() +
+                         ": the firmware of this run is another process or a board, whose button, "
+                         "supply and reset are out of reach; leave out --bus");
+}
+
+std::string fault_kind_names() {
+  std::string names;
+  for (const char* kind : kFaultKindNames) {
+    names += (names.empty() ? "" : ", ") + std::string(kind);
+  }
+  return names;
 }
 
 std::vector<FaultSpec> read_faults(const sim::Settings& settings) {

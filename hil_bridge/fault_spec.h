@@ -64,6 +64,14 @@ struct FaultSpec {
   std::string name() const;
 };
 
+/// True for button, supply and reset of the foot: those of a board, which must be in this process.
+bool needs_board(const FaultSpec& fault);
+/// @throws sim::ConfigError saying so
+[[noreturn]] void refuse_without_board(const FaultSpec& fault);
+
+/// "drop, delay, ..."
+std::string fault_kind_names();
+
 /// All faults of a run, in their order; empty where the settings have none.
 /// @throws sim::ConfigError naming file, line, key, value and bound
 std::vector<FaultSpec> read_faults(const sim::Settings& settings);

@@ -195,4 +195,16 @@ FaultTarget find_target(const FaultSpec& fault, const Drives& drives) {
   return {};
 }
 
+bool unseen_by_bus(const FaultSpec& fault, const FaultTarget& target) {
+  if (fault.kind == FaultKind::kBrownOut) return true;
+  if (fault.kind == FaultKind::kEstop && !target.floods) return true;
+  if (!target.frames) return false;
+  if (target.frames->node) return *target.frames->node == kFootNode;
+  if (!target.frames->id) return true;  // all frames of a bus, the foot's among them
+  for (const protocol::MessageSpec& message : protocol::kMessages) {
+    if (message.id == *target.frames->id) return message.sender == protocol::Node::kFoot;
+  }
+  return false;
+}
+
 }  // namespace hoof::bridge

@@ -25,4 +25,8 @@ struct FaultTarget {
 /// @throws sim::ConfigError naming file, line, key, value and what there is
 FaultTarget find_target(const FaultSpec& fault, const std::array<bool, sim::kJointCount>& drives);
 
+/// True where the fault reaches the firmware in ways that no log of the bus shows: by its board, by
+/// its own connection, or by its frames on their way to the wire.
+bool unseen_by_bus(const FaultSpec& fault, const FaultTarget& target);
+
 }  // namespace hoof::bridge

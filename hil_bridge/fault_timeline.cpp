@@ -99,16 +99,9 @@ void FaultTimeline::bind(LockStep& lock_step, sim::Experiment& experiment) {
   begin_due(0, nullptr);
 }
 
-/// Button, supply and reset are those of a board in this process.
 void FaultTimeline::require_reach(const Item& item) const {
-  const FaultKind kind = item.fault.kind;
-  const bool line = kind == FaultKind::kEstop && !item.flood;
-  const bool foot_restarts = kind == FaultKind::kNodeRestart && !item.target.joint;
-  if (!line && !foot_restarts && kind != FaultKind::kBrownOut) return;
-  if (lock_step_->firmware().board() != nullptr) return;
-  throw sim::ConfigError(item.fault.origin.text() + ": " + item.fault.name() +
-                         ": the firmware of this run is another process or a board, whose button, "
-                         "supply and reset are out of reach; leave out --bus");
+  if (!needs_board(item.fault) || lock_step_->firmware().board() != nullptr) return;
+  refuse_without_board(item.fault);
 }
 
 void FaultTimeline::update(const TickRecord& record) {

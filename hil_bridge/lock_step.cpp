@@ -66,27 +66,36 @@ void LockStep::poll_nodes() {
   supervisor_.poll(clock_.now_ns());
 }
 
-/// What has arrived is answered, then plant and wires go on by one exchange interval.
-void LockStep::exchange() {
-  poll_nodes();
+/// What has arrived is answered, then plant and wires go on by one exchange interval. At a pace of
+/// the wall's a tick is computed at its begin, in a fraction of its time: to look for frames once
+/// is enough, and twenty looks by calls of the kernel could take longer than the tick.
+void LockStep::exchange(bool first, bool last) {
+  if (pace_ == nullptr || first) poll_nodes();
   experiment_.advance();
   for (int j = 0; j < sim::kJointCount; ++j) {
     const double torque = experiment_.plant().joint_torque_Nm(sim::Joint(j));
     torques_.mean_Nm[j] += torque * double(exchange_ns_) / double(kTick_ns);
     torques_.peak_Nm[j] = std::max(torques_.peak_Nm[j], std::abs(torque));
     const sim::Drive* drive = experiment_.plant().drive(sim::Joint(j));
-    if (drive && std::abs(drive->motor_torque_Nm()) >= drive->settings().torque_limit_Nm) {
+    if (drive == nullptr) continue;
+    const double motor_Nm = drive->motor_torque_Nm();
+    if (std::abs(motor_Nm) >= drive->settings().torque_limit_Nm) {
       torques_.limited_s[j] += double(exchange_ns_) * 1e-9;
+    }
+    if (motor_Nm * drive->rotor_velocity_rad_s() >= 0) {
+      torques_.push_Nm[j] = std::max(torques_.push_Nm[j], std::abs(motor_Nm));
     }
   }
   clock_.advance_to(clock_.now_ns() + exchange_ns_);
-  wires_.advance_to(clock_.now_ns());
+  if (pace_ == nullptr || last) wires_.advance_to(clock_.now_ns());
 }
 
 void LockStep::tick() {
   torques_ = {};
   send_sync();
-  for (std::int64_t t = 0; t < due_ticks_ * kTick_ns; t += exchange_ns_) exchange();
+  for (std::int64_t t = 0; t < due_ticks_ * kTick_ns; t += exchange_ns_) {
+    exchange(t % kTick_ns == 0, (t + exchange_ns_) % kTick_ns == 0);
+  }
   if (pace_ != nullptr) due_ticks_ = pace_->rest([this] { poll_nodes(); });
   tick_ += due_ticks_;
 }

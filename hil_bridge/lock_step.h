@@ -22,6 +22,7 @@ struct TickTorques {
   std::array<double, sim::kJointCount> mean_Nm{};    // gear on joint
   std::array<double, sim::kJointCount> peak_Nm{};    // largest magnitude of any exchange interval
   std::array<double, sim::kJointCount> limited_s{};  // time for which the drive's own limit clipped
+  std::array<double, sim::kJointCount> push_Nm{};    // largest of a motor along its rotor's motion
 };
 
 /// Ties the ticks of a run to something outside, for instance to the wall's clock.
@@ -61,7 +62,7 @@ class LockStep {
  private:
   void send_sync();
   void poll_nodes();
-  void exchange();
+  void exchange(bool first, bool last);
 
   sim::Experiment& experiment_;
   Wires& wires_;

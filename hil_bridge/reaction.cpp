@@ -40,8 +40,8 @@ bool all_passive(const sim::Plant& plant) {
   return true;
 }
 
-void ReactionWatch::note(double now_s, const sim::Plant& plant,
-                         const firmware::app::Telemetry& firmware, std::uint32_t faults) {
+void ReactionWatch::note(double now_s, const sim::Plant& plant, firmware::control::Mode mode,
+                         std::uint32_t faults) {
   reaction_.faults |= faults;
   if (faults != 0 && !reaction_.tripped_s) reaction_.tripped_s = now_s;
   if (!all_passive(plant)) {
@@ -49,7 +49,7 @@ void ReactionWatch::note(double now_s, const sim::Plant& plant,
   } else if (!reaction_.safe_s) {
     reaction_.safe_s = now_s;
   }
-  reaction_.mode = mode_name(int(firmware.mode));
+  reaction_.mode = mode_name(int(mode));
 }
 
 }  // namespace hoof::bridge

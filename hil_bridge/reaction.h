@@ -29,7 +29,7 @@ bool all_passive(const sim::Plant& plant);
 class ReactionWatch {
  public:
   /// After every tick from the first fault on.
-  void note(double now_s, const sim::Plant& plant, const firmware::app::Telemetry& firmware,
+  void note(double now_s, const sim::Plant& plant, firmware::control::Mode mode,
             std::uint32_t faults);
   /// The reset worked, now.
   void note_reset(double now_s) { reaction_.reset_s = now_s; }

@@ -38,6 +38,8 @@ class FactsReader {
     throw std::invalid_argument(source_ + ": " + what);
   }
 
+  bool has(const char* key) const { return json_.contains(key); }
+
   template <typename T>
   T value(const char* key) const {
     if (!json_.contains(key)) fail("no '" + std::string(key) + "'");
@@ -106,7 +108,8 @@ std::string to_json(const RecordingFacts& facts) {
                      ",\n  \"mailboxes\": " + std::to_string(facts.mailboxes) +
                      ",\n  \"protocol_hash\": \"" + hex(facts.protocol_hash) +
                      "\",\n  \"parameter_table_hash\": \"" + hex(facts.parameter_table_hash) +
-                     "\",\n  \"parameters\": {";
+                     "\",\n  \"unseen_faults\": " + Json(facts.unseen_faults).dump() +
+                     ",\n  \"parameters\": {";
   const char* between = "\n";
   for (const auto& entry : firmware::app::parameter_table()) {
     text += between + ("    " + Json(std::string(entry.name)).dump()) + ": " +
@@ -131,6 +134,10 @@ RecordingFacts parse_recording_facts(const std::string& text, const std::string&
   if (facts.mailboxes < 1 || facts.mailboxes > 64) reader.fail("'mailboxes' must be 1 to 64");
   facts.protocol_hash = reader.hash("protocol_hash");
   facts.parameter_table_hash = reader.hash("parameter_table_hash");
+  // Recordings of before there were faults do not have it.
+  if (reader.has("unseen_faults")) {
+    facts.unseen_faults = reader.value<std::vector<std::string>>("unseen_faults");
+  }
   reader.parameters(facts);
   return facts;
 }

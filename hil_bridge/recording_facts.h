@@ -25,6 +25,9 @@ struct RecordingFacts {
   std::uint32_t protocol_hash = 0;   // of the dictionary
   std::uint32_t parameter_table_hash = 0;
   firmware::app::Parameters parameters;
+  /// Faults put into the run that reached the firmware without the bus showing it: from the first
+  /// of them on its answers need not be those of a replay.
+  std::vector<std::string> unseen_faults;
 
   /// Remarks of read_recording_facts(): parameters that only one of the two firmwares has.
   std::vector<std::string> notes;

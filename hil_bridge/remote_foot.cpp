@@ -1,7 +1,9 @@
 #include "hil_bridge/remote_foot.h"
 
+#include <chrono>
 #include <limits>
 #include <stdexcept>
+#include <thread>
 
 #include "firmware/protocol/dictionary.h"
 #include "hal/monotonic_clock.h"
@@ -16,6 +18,7 @@ using firmware::protocol::Node;
 namespace {
 
 constexpr std::int64_t kLook_ns = 20'000'000;
+constexpr auto kFullSleep = std::chrono::microseconds(100);
 constexpr std::int64_t kNever_ns = std::numeric_limits<std::int64_t>::max();
 /// Visitors' frames that may be on their way over the simulated wires at once.
 constexpr std::size_t kMostVisitors = 1024;
@@ -34,6 +37,11 @@ bool is_reply(const hal::CanFrame& frame) {
   return message != nullptr &&
          (message->sender == Node::kToeDrive || message->sender == Node::kHipDrive ||
           message->sender == Node::kKneeDrive);
+}
+
+bool is_command(const MessageSpec& message) {
+  return message.receiver == Node::kToeDrive || message.receiver == Node::kHipDrive ||
+         message.receiver == Node::kKneeDrive;
 }
 
 }  // namespace
@@ -60,6 +68,7 @@ RemoteFoot::RemoteFoot(RemoteLine& line, std::array<hal::CanBus*, kBusCount> bus
 
 RemoteFoot::~RemoteFoot() {
   line_.bus(0).send(lock_step::end());
+  line_.flush();
 }
 
 void RemoteFoot::poll(std::uint32_t tick) {
@@ -74,8 +83,10 @@ void RemoteFoot::poll(std::uint32_t tick) {
     flush();
     return;
   }
-  lost_ = "hoof-firmware on " + line_.name() + " did not answer SYNC " + std::to_string(tick) +
-          " within " + std::to_string(patience_ns_ / 1'000'000) + " ms";
+  lost_ = "hoof-firmware on " + line_.name() +
+          (left_ ? " ended before it answered SYNC " + std::to_string(tick)
+                 : " did not answer SYNC " + std::to_string(tick) + " within " +
+                       std::to_string(patience_ns_ / 1'000'000) + " ms");
 }
 
 /// @return true where the firmware may have something to say to what came
@@ -97,8 +108,11 @@ bool RemoteFoot::forward_arrivals() {
       if (lost_.empty()) send(bus, frame);
     }
   }
-  if (any && !asks && lost_.empty() && clock_.now_ns() < due_ns_) go(false);
-  return asks;
+  if (!any || asks || clock_.now_ns() >= due_ns_ || !lost_.empty()) return asks;
+  // Two interfaces keep no order among each other: each moment must be over before the next one.
+  if (!line_.one_interface()) return true;
+  go(false);  // on its way with the next one that is waited for
+  return false;
 }
 
 bool RemoteFoot::is_visitor_s(const hal::CanFrame& frame) {
@@ -111,13 +125,18 @@ bool RemoteFoot::is_visitor_s(const hal::CanFrame& frame) {
 }
 
 void RemoteFoot::send(int bus, const hal::CanFrame& frame) {
+  while (line_.bus(bus).send(frame) != hal::SendResult::kQueued) flush_line();
+}
+
+void RemoteFoot::flush_line() {
+  if (line_.flush()) return;
   const hal::MonotonicClock wall;
   const std::int64_t give_up_ns = wall.now_ns() + patience_ns_;
-  while (line_.bus(bus).send(frame) != hal::SendResult::kQueued) {
+  while (!line_.flush()) {
     if (wall.now_ns() >= give_up_ns) {
       throw std::runtime_error(line_.name() + ": the interface takes no more frames");
     }
-    line_.bus(bus).wait(kLook_ns / 20);
+    std::this_thread::sleep_for(kFullSleep);
   }
 }
 
@@ -132,10 +151,11 @@ void RemoteFoot::go(bool answer) {
   send(0, encode(go));
 }
 
-/// @return false where no answer came in time
+/// @return false where no answer came in time, or none will
 bool RemoteFoot::await_done(std::int64_t time_ns) {
+  flush_line();
   const hal::MonotonicClock wall;
-  const std::int64_t give_up_ns = wall.now_ns() + patience_ns_;
+  std::int64_t give_up_ns = kNever_ns;
   hal::CanFrame frame;
   do {
     line_.bus(0).wait(kLook_ns);
@@ -148,7 +168,9 @@ bool RemoteFoot::await_done(std::int64_t time_ns) {
       while (!line_.one_interface() && line_.bus(1).receive(frame)) take(1, frame, time_ns);
       return true;
     }
-  } while (wall.now_ns() < give_up_ns);
+    // An answer that comes with the first look, as nearly all do, needs no clock.
+    if (give_up_ns == kNever_ns) give_up_ns = wall.now_ns() + patience_ns_;
+  } while (!left_ && wall.now_ns() < give_up_ns);
   return false;
 }
 
@@ -161,12 +183,17 @@ bool RemoteFoot::take(int interface, const hal::CanFrame& frame, std::int64_t ti
                   : time_ns + std::int64_t{done->due_in_us} * 1000;
     return true;
   }
-  if (lock_step::is_any(frame)) return false;
+  if (lock_step::is_any(frame)) {
+    left_ = left_ || lock_step::is_end(frame);
+    return false;
+  }
   const MessageSpec* message = message_of(frame);
   const bool on_bus0 = message == nullptr || (message->buses & firmware::protocol::kBus0) != 0;
   const int bus = line_.one_interface() ? (on_bus0 ? 0 : 1) : interface;
   if (message != nullptr && message->sender == Node::kFoot) {
     telemetry_.take(frame, clock_.now_ns());
+    // As the firmware does where it can: a socket cannot call back what it was given.
+    if (is_command(*message)) buses_[bus]->withdraw(frame.id);
     put_on_wire(bus, frame);
   } else if (visitors_frames_.size() < kMostVisitors) {
     if (visitors_[bus]->send(frame) == hal::SendResult::kQueued) visitors_frames_.push_back(frame);

@@ -40,6 +40,7 @@ class RemoteFoot final : public FirmwareNode {
   bool forward_arrivals();
   bool is_visitor_s(const hal::CanFrame& frame);
   void send(int bus, const hal::CanFrame& frame);
+  void flush_line();
   void go(bool answer);
   bool await_done(std::int64_t time_ns);
   bool take(int interface, const hal::CanFrame& frame, std::int64_t time_ns);
@@ -55,6 +56,7 @@ class RemoteFoot final : public FirmwareNode {
   std::array<std::deque<hal::CanFrame>, kBusCount> waiting_;  // for a free mailbox
   std::deque<hal::CanFrame> visitors_frames_;  // on the simulated wires, not to be forwarded
   std::int64_t due_ns_ = 0;                    // the firmware must be polled then, frames or not
+  bool left_ = false;                          // it said so
   BusTelemetry telemetry_;
   std::string lost_;
 };

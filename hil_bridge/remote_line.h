@@ -1,12 +1,14 @@
 // The SocketCAN interfaces to a firmware in another process.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "firmware/app/parameters.h"
 #include "hal/socketcan/socketcan_bus.h"
+#include "hil_bridge/service_client.h"
 
 namespace hoof::bridge {
 
@@ -20,12 +22,18 @@ class RemoteLine {
   bool one_interface() const { return bus1_ == nullptr; }
   hal::SocketCanBus& bus(int index) { return index == 1 && bus1_ ? *bus1_ : *bus0_; }
 
+  /// Frames given to a bus wait here until now. @return false where an interface takes no more
+  bool flush();
+
   /// Frames that the kernel lost on the way here; only known with the next frame.
   std::uint64_t dropped() const;
 
-  /// Waits for a heartbeat with this program's protocol hash.
-  /// @throws std::runtime_error where none comes within the time, or one with another hash
-  void await_heartbeat(std::int64_t timeout_ns);
+  /// Waits for a heartbeat with this program's protocol hash, and a moment longer for those of a
+  /// second foot.
+  /// @param stopped asked again and again; true ends the wait with an exception
+  /// @throws std::runtime_error where none comes within the time, or one with another hash, or
+  /// there are two feet
+  void await_heartbeat(std::int64_t timeout_ns, const std::function<bool()>& stopped = {});
 
   /// True as soon as a heartbeat comes, with whatever protocol hash.
   bool hears_foot(std::int64_t longest_ns);
@@ -37,6 +45,9 @@ class RemoteLine {
                                            std::int64_t timeout_ns);
 
  private:
+  std::vector<std::string> pass_parameters(ServiceClient& client,
+                                           const firmware::app::Parameters& parameters) const;
+
   std::string name_;
   std::unique_ptr<hal::SocketCanBus> bus0_;
   std::unique_ptr<hal::SocketCanBus> bus1_;  // null where one interface carries both

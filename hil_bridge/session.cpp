@@ -100,15 +100,21 @@ class Session {
   void note_faults(const TickRecord& record) {
     settings_.faults->update(record);
     if (!settings_.faults->first_s()) return;
-    watch_.note(record.plant.time_s, experiment_.plant(), record.firmware,
+    // Of now: the record's is of before the orders that came with the tick.
+    watch_.note(record.plant.time_s, experiment_.plant(), lock_step_.firmware().mode(),
                 lock_step_.firmware().faults());
   }
 
-  /// The foot comes to rest, the faults end, and an operator resets it.
+  /// The foot comes to rest, the faults end, and an operator resets it, who knows what the
+  /// heartbeat tells: the same whether the firmware is in this process or not.
   void recover() {
-    const auto at_rest = [this] {
-      const Mode mode = Mode(lock_step_.firmware().mode());
-      return mode == Mode::kOff || mode == Mode::kFault || mode == Mode::kEmergencyOff;
+    const auto told = [this](bool without_fault, auto... modes) {
+      const auto& heartbeat = lock_step_.supervisor().heartbeat();
+      if (!heartbeat || (without_fault && heartbeat->faults != 0)) return false;
+      return ((heartbeat->mode == modes) || ...);
+    };
+    const auto at_rest = [&told] {
+      return told(false, Mode::kOff, Mode::kFault, Mode::kEmergencyOff);
     };
     const auto go_on = [this](double limit_s, const auto& until) {
       const double from_s = experiment_.time_s();
@@ -122,9 +128,7 @@ class Session {
     const auto over = [this] { return !settings_.faults->any_active(); };
     if (!go_on(settings_.rest_limit_s, over)) return;
     lock_step_.supervisor().order(Order::kReset);
-    const auto reset = [this] {
-      return lock_step_.supervisor().accepted() && lock_step_.firmware().faults() == 0;
-    };
+    const auto reset = [&] { return lock_step_.supervisor().accepted() && told(true, Mode::kOff); };
     if (go_on(settings_.reset_limit_s, reset)) watch_.note_reset(experiment_.time_s());
   }
 

@@ -1,12 +1,14 @@
 #include "hil_bridge/wires.h"
 
 #include <algorithm>
+#include <initializer_list>
 #include <optional>
 #include <vector>
 
 #include "hal/in_process/in_process_bus.h"
 #include "hal/monotonic_clock.h"
 #include "hal/socketcan/socketcan_bus.h"
+#include "sim/multibody/rig.h"
 
 namespace hoof::bridge {
 namespace {
@@ -32,9 +34,12 @@ class InProcessWires final : public Wires {
 
   void advance_to(std::int64_t t_ns) override {
     for (const auto& bus : buses_) bus->advance_to(t_ns);
-    std::stable_sort(seen_.begin(), seen_.end(), [](const Seen& a, const Seen& b) {
-      return a.frame.stamp_ns < b.frame.stamp_ns;
-    });
+    if (seen_.empty()) return;
+    if (seen_.size() > 1) {
+      std::stable_sort(seen_.begin(), seen_.end(), [](const Seen& a, const Seen& b) {
+        return a.frame.stamp_ns < b.frame.stamp_ns;
+      });
+    }
     frames_ += seen_.size();
     if (observer_) {
       for (const Seen& s : seen_) observer_(s.bus, s.frame);
@@ -71,8 +76,12 @@ class SocketCanWires final : public Wires {
     }
   }
 
-  hal::CanBus& attach(int bus, const std::string&) override {
-    nodes_.push_back(open(names_[bus]));
+  hal::CanBus& attach(int bus, const std::string& node) override {
+    hal::SocketCanSettings settings;
+    settings.interface = names_[bus];
+    settings.filters = wanted_by(node, bus);
+    settings.stamps = false;  // the listener's are the recording's
+    nodes_.push_back(std::make_unique<hal::SocketCanBus>(settings));
     return *nodes_.back();
   }
 
@@ -101,6 +110,28 @@ class SocketCanWires final : public Wires {
   bool one_wire() const override { return names_[0] == names_[1]; }
 
  private:
+  /// What a node acts upon. The kernel copies every frame to every socket that wants it, and that
+  /// is most of what a frame costs. Empty: everything.
+  std::vector<hal::CanFilter> wanted_by(const std::string& node, int bus) const {
+    using namespace firmware::protocol;
+    const auto only = [](std::initializer_list<std::uint32_t> ids) {
+      std::vector<hal::CanFilter> filters;
+      for (const std::uint32_t id : ids) filters.push_back({.id = id, .mask = 0x7FF});
+      return filters;
+    };
+    const std::uint32_t sync = spec(Message::kSync).id;
+    if (node == kSyncNode) return only({sync});  // others', which it does not read
+    if (node == kFootNode && bus == 1 && one_wire()) return only({sync});  // bus 0 brings it all
+    if (node == kSupervisorNode) {
+      return only({spec(Message::kHeartbeat).id, spec(Message::kOrderAcknowledge).id,
+                   spec(Message::kFootToe).id});
+    }
+    for (const Drive drive : kDrives) {
+      if (node == sim::joint_name(sim::Joint(int(drive)))) return only({command_spec(drive).id});
+    }
+    return {};
+  }
+
   static std::unique_ptr<hal::SocketCanBus> open(const std::string& name) {
     hal::SocketCanSettings settings;
     settings.interface = name;

@@ -222,7 +222,9 @@ void ControlLoop::write(const control::PerJoint<JointWish>& joints) {
     if (!controller_.presence().has(i)) continue;
     const float zero_rad = inbox_.zero_rad(static_cast<Joint>(i));
     const hal::CanFrame frame = frame_for(protocol::kDrives[i], joints[i], zero_rad);
-    const bool sent = buses_[bus_of(i)]->send(frame) == hal::SendResult::kQueued;
+    hal::CanBus& bus = *buses_[bus_of(i)];
+    bus.withdraw(frame.id);  // what a busy bus has kept from the tick before is out of date
+    const bool sent = bus.send(frame) == hal::SendResult::kQueued;
     if (!sent) ++counters_.unsent_frames;
     exit_unsent_[i] = !sent && joints[i].action == DriveAction::kExit;
   }

@@ -33,6 +33,7 @@ FaultBits ReplyWatch::inspect(const JointLimits& limits, const DriveData& drive,
   if (state.referenced && outside) found |= fault::kOutsideTravel;
   if (compared_ && state.received_ns == last_.received_ns) return found;
   if (!motion_plausible(limits, state)) found |= fault::kImplausibleReply;
+  if (stuck(limits, state)) found |= fault::kImplausibleReply;
   if (!follows(limits, drive, state, passed)) found |= fault::kNotFollowing;
   last_ = {state.reading_rad, state.velocity_rad_s, state.received_ns};
   compared_ = true;
@@ -42,7 +43,7 @@ FaultBits ReplyWatch::inspect(const JointLimits& limits, const DriveData& drive,
 
 /// A new reply against the one before: no farther than the drive can turn, and as far as the speeds
 /// that it reports say. The second is a leaky integral of the difference, so that rounding, lag and
-/// a knock are forgotten while a stuck or slipping encoder is not.
+/// a knock are forgotten while a slipping encoder is not.
 bool ReplyWatch::motion_plausible(const JointLimits& limits, const JointState& state) {
   if (!compared_) return true;
   const float moved_rad = state.reading_rad - last_.reading_rad;
@@ -62,6 +63,19 @@ bool ReplyWatch::motion_plausible(const JointLimits& limits, const JointState& s
   }
   return control::absolute(moved_rad) <= reach_rad &&
          control::absolute(drift_rad_) <= limits.drift_rad;
+}
+
+/// The motor's encoder sees its gear wind up, also where the joint itself is held by a stop or the
+/// ground. A reading that stays on one code while the torque changes is that of a stuck encoder, or
+/// of a rotor that is: the control would push on without end. The torque that has brought a rotor
+/// to rest does not count.
+bool ReplyWatch::stuck(const JointLimits& limits, const JointState& state) {
+  if (!compared_ || state.reading_rad != last_.reading_rad) still_replies_ = 0;
+  if (still_replies_ < kSettlingReplies) still_low_Nm_ = still_high_Nm_ = state.torque_Nm;
+  ++still_replies_;
+  still_low_Nm_ = std::min(still_low_Nm_, state.torque_Nm);
+  still_high_Nm_ = std::max(still_high_Nm_, state.torque_Nm);
+  return still_replies_ > kStuckReplies && still_high_Nm_ - still_low_Nm_ > limits.stuck_Nm;
 }
 
 /// The reply tells the torque that the drive made of a command a tick or two old; what the last one

@@ -34,6 +34,7 @@ class ReplyWatch {
   };
 
   bool motion_plausible(const JointLimits& limits, const control::JointState& state);
+  bool stuck(const JointLimits& limits, const control::JointState& state);
   bool follows(const JointLimits& limits, const DriveData& drive, const control::JointState& state,
                const control::JointWish& passed);
 
@@ -42,6 +43,9 @@ class ReplyWatch {
   bool compared_ = false;    // last_ is a reply of this watch
   std::uint32_t ticks_ = 0;  // since last_
   float drift_rad_ = 0.0f;
+  int still_replies_ = 0;      // on one reading
+  float still_low_Nm_ = 0.0f;  // torques on it, but for the first
+  float still_high_Nm_ = 0.0f;
   int astray_ticks_ = 0;
 };
 

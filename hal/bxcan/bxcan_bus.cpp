@@ -124,6 +124,19 @@ SendResult BxCanBus::send(const CanFrame& frame) {
   return SendResult::kQueued;
 }
 
+/// RM0090 rev. 19, 32.7.1 (abort): a mailbox that is pending or scheduled is empty at once, one
+/// that is being sent when its frame has ended.
+void BxCanBus::withdraw(std::uint32_t id) {
+  const std::uint32_t status = registers_.TSR.read();
+  const std::uint32_t identifier = id << identifier::kStandardShift;
+  std::uint32_t aborts = 0;
+  for (std::size_t i = 0; i < kMailboxes; ++i) {
+    const std::uint32_t held = registers_.transmit[i].identifier.read() & ~identifier::kTransmit;
+    if ((status & tsr::empty(i)) == 0 && held == identifier) aborts |= tsr::abort(i);
+  }
+  if (aborts != 0) registers_.TSR.write(aborts);
+}
+
 /// The first empty mailbox above all that hold the same identifier.
 std::size_t BxCanBus::choose_mailbox(std::uint32_t identifier) const {
   const std::uint32_t status = registers_.TSR.read();

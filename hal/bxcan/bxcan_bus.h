@@ -42,6 +42,7 @@ class BxCanBus final : public CanBus {
   void maintain(std::int64_t now_ns);
 
   SendResult send(const CanFrame& frame) override;
+  void withdraw(std::uint32_t id) override;
   bool receive(CanFrame& frame) override;
   BusStatus status() const override;
   bool frame_waiting() const { return !queue_.empty(); }

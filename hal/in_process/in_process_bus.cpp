@@ -64,6 +64,13 @@ SendResult InProcessPort::send(const CanFrame& frame) {
   return SendResult::kQueued;
 }
 
+void InProcessPort::withdraw(std::uint32_t id) {
+  for (Mailbox& mailbox : mailboxes_) {
+    const bool waits = mailbox.used && !mailbox.on_wire;
+    if (waits && mailbox.frame.id == id && !mailbox.frame.extended) give_up(mailbox);
+  }
+}
+
 bool InProcessPort::receive(CanFrame& frame) {
   if (queue_size_ == 0) return false;
   frame = queue_[queue_head_];
@@ -87,11 +94,14 @@ void InProcessPort::set_bus_off(bool off) {
 void InProcessPort::leave_bus() {
   status_.bus_off = true;
   for (Mailbox& mailbox : mailboxes_) {
-    if (!mailbox.used || mailbox.on_wire) continue;
-    mailbox.used = false;
-    --pending_count_;
-    --bus_.pending_total_;
+    if (mailbox.used && !mailbox.on_wire) give_up(mailbox);
   }
+}
+
+void InProcessPort::give_up(Mailbox& mailbox) {
+  mailbox.used = false;
+  --pending_count_;
+  --bus_.pending_total_;
 }
 
 bool InProcessPort::accepts(const CanFrame& frame) const {

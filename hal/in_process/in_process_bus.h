@@ -62,6 +62,7 @@ struct InProcessBusSettings {
 class InProcessPort final : public CanBus {
  public:
   SendResult send(const CanFrame& frame) override;
+  void withdraw(std::uint32_t id) override;
   bool receive(CanFrame& frame) override;
   BusStatus status() const override {
     BusStatus status = status_;
@@ -105,6 +106,7 @@ class InProcessPort final : public CanBus {
   void count_receive_error();
   void update_error_state();
   void leave_bus();
+  void give_up(Mailbox& mailbox);
   Mailbox* best();
 
   InProcessBus& bus_;

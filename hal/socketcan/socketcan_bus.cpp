@@ -1,6 +1,5 @@
 #include "hal/socketcan/socketcan_bus.h"
 
-#include <linux/can.h>
 #include <linux/can/error.h>
 #include <linux/can/raw.h>
 #include <net/if.h>
@@ -18,6 +17,8 @@
 #include <utility>
 
 #include "hal/can_frame_check.h"
+#include "hal/socketcan/kernel_frame.h"
+#include "hal/socketcan/socketcan_batch.h"
 
 namespace hoof::hal {
 namespace {
@@ -38,33 +39,10 @@ std::int64_t clock_ns(clockid_t clock) {
   return to_ns(now);
 }
 
-/// What the kernel tells beside a frame.
-struct Ancillary {
-  std::int64_t realtime_stamp_ns = 0;  // 0: none
-  bool has_drops = false;
-  std::uint32_t drops = 0;  // since the socket was opened
-};
-
-Ancillary read_ancillary(msghdr& message) {
-  Ancillary out;
-  for (cmsghdr* item = CMSG_FIRSTHDR(&message); item; item = CMSG_NXTHDR(&message, item)) {
-    if (item->cmsg_level != SOL_SOCKET) continue;
-    if (item->cmsg_type == SO_TIMESTAMPNS) {
-      timespec stamp{};
-      std::memcpy(&stamp, CMSG_DATA(item), sizeof stamp);
-      out.realtime_stamp_ns = to_ns(stamp);
-    } else if (item->cmsg_type == SO_RXQ_OVFL) {
-      std::memcpy(&out.drops, CMSG_DATA(item), sizeof out.drops);
-      out.has_drops = true;
-    }
-  }
-  return out;
-}
-
-std::int64_t monotonic_stamp_ns(const Ancillary& ancillary) {
+std::int64_t monotonic_stamp_ns(std::int64_t realtime_stamp_ns) {
   const std::int64_t monotonic_ns = clock_ns(CLOCK_MONOTONIC);
-  if (ancillary.realtime_stamp_ns == 0) return monotonic_ns;
-  const std::int64_t age_ns = clock_ns(CLOCK_REALTIME) - ancillary.realtime_stamp_ns;
+  if (realtime_stamp_ns == 0) return monotonic_ns;
+  const std::int64_t age_ns = clock_ns(CLOCK_REALTIME) - realtime_stamp_ns;
   return monotonic_ns - std::max<std::int64_t>(0, age_ns);
 }
 
@@ -97,10 +75,41 @@ bool set_option(int fd, int level, int option, const Value& value) {
   return setsockopt(fd, level, option, &value, sizeof value) == 0;
 }
 
+SendResult meaning_of(int error_number) {
+  switch (error_number) {
+    case EAGAIN:
+    case ENOBUFS:  // the interface's queue (ip link set can0 txqueuelen 1000) is full
+      return SendResult::kFull;
+    case EINVAL:
+    case EMSGSIZE:
+      return SendResult::kInvalid;
+    default:
+      return SendResult::kDown;
+  }
+}
+
 }  // namespace
 
+void KernelFrame::read_ancillary(msghdr& message) {
+  realtime_stamp_ns = 0;
+  has_drops = false;
+  for (cmsghdr* item = CMSG_FIRSTHDR(&message); item; item = CMSG_NXTHDR(&message, item)) {
+    if (item->cmsg_level != SOL_SOCKET) continue;
+    if (item->cmsg_type == SO_TIMESTAMPNS) {
+      timespec stamp{};
+      std::memcpy(&stamp, CMSG_DATA(item), sizeof stamp);
+      realtime_stamp_ns = to_ns(stamp);
+    } else if (item->cmsg_type == SO_RXQ_OVFL) {
+      std::memcpy(&drops, CMSG_DATA(item), sizeof drops);
+      has_drops = true;
+    }
+  }
+}
+
 SocketCanBus::SocketCanBus(SocketCanSettings settings) : settings_(std::move(settings)) {
-  fd_ = socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW);
+  // A batch sleeps in the call that takes it; all else says with each call that it must not.
+  const int blocking = settings_.batched ? 0 : SOCK_NONBLOCK;
+  fd_ = socket(PF_CAN, SOCK_RAW | blocking | SOCK_CLOEXEC, CAN_RAW);
   if (fd_ < 0) {
     fail(
         "this kernel has no CAN (modprobe can-raw; in a virtual machine without it, run the "
@@ -113,6 +122,7 @@ SocketCanBus::SocketCanBus(SocketCanSettings settings) : settings_(std::move(set
     close(fd_);
     throw;
   }
+  if (settings_.batched) batch_ = std::make_unique<SocketCanBatch>();
 }
 
 SocketCanBus::~SocketCanBus() {
@@ -168,7 +178,10 @@ void SocketCanBus::configure() {
   if (!set_option(fd_, SOL_SOCKET, SO_RCVBUFFORCE, settings_.receive_buffer_bytes)) {
     set_option(fd_, SOL_SOCKET, SO_RCVBUF, settings_.receive_buffer_bytes);
   }
-  if (!set_option(fd_, SOL_SOCKET, SO_TIMESTAMPNS, 1)) fail("time stamps were refused", errno);
+  if (settings_.batched) settings_.stamps = false;
+  if (settings_.stamps && !set_option(fd_, SOL_SOCKET, SO_TIMESTAMPNS, 1)) {
+    fail("time stamps were refused", errno);
+  }
   if (!set_option(fd_, SOL_SOCKET, SO_RXQ_OVFL, 1)) fail("drop counts were refused", errno);
 
   sockaddr_can address{};
@@ -183,52 +196,65 @@ SendResult SocketCanBus::send(const CanFrame& frame) {
   if (!can_exist(frame) || (frame.fd && !settings_.fd)) return SendResult::kInvalid;
   if (status_.bus_off) return SendResult::kBusOff;
   const canfd_frame raw = to_kernel(frame);
-  ssize_t written = 0;
-  do {
-    written = write(fd_, &raw, frame.fd ? CANFD_MTU : CAN_MTU);
-  } while (written < 0 && errno == EINTR);
-  if (written >= 0) {
+  const std::size_t bytes = frame.fd ? CANFD_MTU : CAN_MTU;
+  if (batch_) {
+    if (!batch_->put(raw, bytes)) {
+      flush();
+      if (!batch_->put(raw, bytes)) return SendResult::kFull;
+    }
     ++status_.sent;
     return SendResult::kQueued;
   }
-  switch (errno) {
-    case EAGAIN:
-    case ENOBUFS:  // the interface's queue (ip link set can0 txqueuelen 1000) is full
-      return SendResult::kFull;
-    case EINVAL:
-    case EMSGSIZE:
-      return SendResult::kInvalid;
-    default:
-      return SendResult::kDown;
-  }
+  ssize_t written = 0;
+  do {
+    written = write(fd_, &raw, bytes);
+  } while (written < 0 && errno == EINTR);
+  if (written < 0) return meaning_of(errno);
+  ++status_.sent;
+  return SendResult::kQueued;
+}
+
+SendResult SocketCanBus::flush() {
+  const int error = batch_ ? batch_->flush(fd_) : 0;
+  return error == 0 ? SendResult::kQueued : meaning_of(error);
+}
+
+bool SocketCanBus::next(KernelFrame& frame) {
+  if (batch_) return batch_->next(fd_, frame);
+  iovec part{&frame.raw, sizeof frame.raw};
+  alignas(cmsghdr) std::array<char, 256> control{};
+  msghdr message{};
+  message.msg_iov = &part;
+  message.msg_iovlen = 1;
+  message.msg_control = control.data();
+  message.msg_controllen = control.size();
+  do {
+    frame.length = recvmsg(fd_, &message, MSG_DONTWAIT);
+  } while (frame.length < 0 && errno == EINTR);
+  if (frame.exists()) frame.read_ancillary(message);
+  return frame.exists();  // else nothing waits, or the interface went down
 }
 
 bool SocketCanBus::receive(CanFrame& frame) {
-  while (true) {
-    canfd_frame raw{};
-    iovec part{&raw, sizeof raw};
-    alignas(cmsghdr) std::array<char, 256> control{};
-    msghdr message{};
-    message.msg_iov = &part;
-    message.msg_iovlen = 1;
-    message.msg_control = control.data();
-    message.msg_controllen = control.size();
-    const ssize_t length = recvmsg(fd_, &message, MSG_DONTWAIT);
-    if (length < 0 && errno == EINTR) continue;
-    if (length != static_cast<ssize_t>(CAN_MTU) && length != static_cast<ssize_t>(CANFD_MTU)) {
-      return false;  // nothing waits, or the interface went down
-    }
-    const Ancillary ancillary = read_ancillary(message);
-    if (ancillary.has_drops) status_.dropped = ancillary.drops;
-    if ((raw.can_id & CAN_ERR_FLAG) != 0) {
-      take_error_frame(raw.can_id & CAN_ERR_MASK, raw.data);
-      continue;
-    }
-    frame = from_kernel(raw, length == static_cast<ssize_t>(CANFD_MTU));
-    frame.stamp_ns = monotonic_stamp_ns(ancillary);
-    ++status_.received;
-    return true;
+  KernelFrame raw;
+  while (next(raw)) {
+    if (take(raw, frame)) return true;
   }
+  return false;
+}
+
+/// @return false where it tells of the controller, not of another node
+bool SocketCanBus::take(const KernelFrame& raw, CanFrame& frame) {
+  if (raw.has_drops) status_.dropped = raw.drops;
+  if (!raw.exists()) return false;
+  if ((raw.raw.can_id & CAN_ERR_FLAG) != 0) {
+    take_error_frame(raw.raw.can_id & CAN_ERR_MASK, raw.raw.data);
+    return false;
+  }
+  frame = from_kernel(raw.raw, raw.length == static_cast<ssize_t>(CANFD_MTU));
+  if (settings_.stamps) frame.stamp_ns = monotonic_stamp_ns(raw.realtime_stamp_ns);
+  ++status_.received;
+  return true;
 }
 
 void SocketCanBus::take_error_frame(std::uint32_t error_class, const std::uint8_t* data) {
@@ -256,6 +282,10 @@ void SocketCanBus::take_error_frame(std::uint32_t error_class, const std::uint8_
 }
 
 bool SocketCanBus::wait(std::int64_t timeout_ns) {
+  if (batch_) {
+    flush();
+    return batch_->wait(fd_, timeout_ns);
+  }
   const std::int64_t deadline_ns = clock_ns(CLOCK_MONOTONIC) + timeout_ns;
   while (true) {
     const std::int64_t left_ns = std::max<std::int64_t>(0, deadline_ns - clock_ns(CLOCK_MONOTONIC));

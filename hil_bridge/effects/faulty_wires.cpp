@@ -47,6 +47,8 @@ class FaultyWires::Port final : public hal::CanBus {
     return result;
   }
 
+  void withdraw(std::uint32_t id) override { inner_.withdraw(id); }
+
   bool receive(hal::CanFrame& frame) override {
     while (inner_.receive(frame)) {
       FrameEffect* deaf = nullptr;

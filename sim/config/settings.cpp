@@ -20,13 +20,14 @@ namespace fs = std::filesystem;
 constexpr std::string_view kUsePrefix = "use.";
 
 /// Section of a run and the folder of its presets.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kPresetFolders = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kPresetFolders = {{
     {"bed", "beds"},
     {"coupling", "coupling"},
     {"drives", "drives"},
     {"foot", "feet"},
     {"leg", "legs"},
     {"materials", "materials"},
+    {"rft_terrain", "rft_terrain"},
     {"rigid_terrain", "rigid_terrain"},
 }};
 

@@ -32,6 +32,7 @@ inline constexpr Unit kGram{"g", 1.0, 1e3};
 inline constexpr Unit kKilogramPerCubicMetre{"kg_m3"};
 inline constexpr Unit kGramSquareCentimetre{"g_cm2", 1.0, 1e7};
 inline constexpr Unit kNewton{"N"};
+inline constexpr Unit kNewtonPerCubicMetre{"N_m3"};
 inline constexpr Unit kNewtonPerMetre{"N_m"};
 inline constexpr Unit kNewtonSecondPerMetre{"N_s_m"};
 inline constexpr Unit kNewtonMetre{"Nm"};

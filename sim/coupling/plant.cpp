@@ -10,6 +10,8 @@ namespace {
 
 /// Work of a wrench while its body moves: force times way of the origin, torque times turn.
 double work_J(const Wrench& wrench, const BodyMotion& motion) {
+  // In the air, most of the time: the turn is not worth its arc tangent.
+  if (wrench.f_W_N.isZero(0) && wrench.tau_Bo_W_Nm.isZero(0)) return 0;
   const Eigen::AngleAxisd turn(motion.end.q_WB * motion.start.q_WB.conjugate());
   return wrench.f_W_N.dot(motion.end.p_WB_m - motion.start.p_WB_m) +
          wrench.tau_Bo_W_Nm.dot(turn.axis() * turn.angle());
@@ -29,6 +31,11 @@ Plant::Plant(std::unique_ptr<Rig> rig, const DriveSet& drives, std::unique_ptr<T
     const Pose pose = rig_->pose(body);
     terrain_->add_body(rig_->mesh(body), pose);
     motions_.push_back({pose, pose});
+    double reach_m = 0;
+    for (const auto& vertex : rig_->mesh(body).vertices_m) {
+      reach_m = std::max(reach_m, vertex.norm());
+    }
+    reach_m_.push_back(reach_m);
   }
   wrenches_.resize(motions_.size());
   before_.resize(motions_.size());
@@ -69,16 +76,16 @@ void Plant::step_drives() {
   }
 }
 
-/// The ground's wrench for the interval to come. The mean of the last interval belongs to its middle;
-/// used as it stands it would reach the rig one interval late and act like a damper of -k h / 2,
-/// which makes energy. Carried on to the end of the last interval along the line through the last two
-/// means it is as prompt as that of a ground that answers at the end; sums over time stay the same.
+/// The ground's wrench for the interval to come. The mean of the last interval belongs to its
+/// middle; used as it stands it would reach the rig one interval late and act like a damper of -k h
+/// / 2, which makes energy. Carried on to the end of the last interval along the line through the
+/// last two means it is as prompt as that of a ground that answers at the end; sums over time stay
+/// the same.
 Wrench Plant::prompt_wrench(std::size_t body) const {
   const Wrench& now = wrenches_[body];
   if (terrain_->wrench_time() == WrenchTime::kEndOfInterval) return now;
   const Wrench& before = before_[body];
-  return {1.5 * now.f_W_N - 0.5 * before.f_W_N,
-          1.5 * now.tau_Bo_W_Nm - 0.5 * before.tau_Bo_W_Nm};
+  return {1.5 * now.f_W_N - 0.5 * before.f_W_N, 1.5 * now.tau_Bo_W_Nm - 0.5 * before.tau_Bo_W_Nm};
 }
 
 void Plant::step_rig() {
@@ -93,14 +100,14 @@ void Plant::step_rig() {
     motion = {before.end, rig_->pose(static_cast<int>(body))};
     // A force held for a step changes the velocity from that of the way before to that of the way
     // now; the energy it gives is force times the mean of both.
-    exchange_energy_.work_on_rig_J +=
-        0.5 * (work_J(wrench, before) + work_J(wrench, motion));
+    exchange_energy_.work_on_rig_J += 0.5 * (work_J(wrench, before) + work_J(wrench, motion));
   }
 }
 
 void Plant::step_terrain() {
   if (asleep_) {
-    asleep_ = lowest_point_m() > terrain_->surface_height_m() + settings_.sleep_margin_m;
+    const double wakes_at_m = terrain_->surface_height_m() + settings_.sleep_margin_m;
+    asleep_ = far_above_m(wakes_at_m) || lowest_point_m() > wakes_at_m;
     if (asleep_) return;
   }
   before_ = wrenches_;
@@ -109,6 +116,15 @@ void Plant::step_terrain() {
   touched_ = touched_ || std::any_of(wrenches_.begin(), wrenches_.end(), [](const Wrench& wrench) {
                return wrench.f_W_N.squaredNorm() > 0.0;
              });
+}
+
+/// However the bodies are turned. Spares the look at every vertex.
+bool Plant::far_above_m(double height_m) const {
+  constexpr double kRounding_m = 1e-6;
+  for (std::size_t body = 0; body < motions_.size(); ++body) {
+    if (!(motions_[body].end.p_WB_m.z() - reach_m_[body] > height_m + kRounding_m)) return false;
+  }
+  return true;
 }
 
 double Plant::lowest_point_m() const {
@@ -123,26 +139,32 @@ double Plant::lowest_point_m() const {
   return lowest;
 }
 
+/// Called every interval: costs next to nothing while all is well.
 void Plant::guard() const {
-  std::ostringstream cause;
   const double speed_m_s = rig_->foot_velocity_m_s().norm();
   const Eigen::Vector3d force_N = ground_force_N();
   // Written so that NaN breaks each rule.
   if (!force_N.allFinite()) {
-    cause << "the force of the ground is not a number";
-  } else if (!(speed_m_s <= settings_.speed_limit_m_s)) {
+    diverged("the force of the ground is not a number");
+  }
+  if (!(speed_m_s <= settings_.speed_limit_m_s)) {
+    std::ostringstream cause;
     cause << "the foot moves at " << speed_m_s
           << " m/s, above coupling.speed_limit_m_s = " << settings_.speed_limit_m_s;
-  } else if (!(exchange_energy_.error_J() <= settings_.energy_error_limit_J)) {
+    diverged(cause.str());
+  }
+  if (!(exchange_energy_.error_J() <= settings_.energy_error_limit_J)) {
+    std::ostringstream cause;
     cause << "the exchange has made " << exchange_energy_.error_J()
           << " J, above coupling.energy_error_limit_J = " << settings_.energy_error_limit_J;
-  } else {
-    return;
+    diverged(cause.str());
   }
+}
+
+void Plant::diverged(const std::string& cause) const {
   std::ostringstream text;
-  text << "diverged at " << time_s() << " s: " << cause.str()
-       << "; shorten coupling.exchange_us (now " << settings_.exchange_s * 1e6
-       << ") or make the foot heavier";
+  text << "diverged at " << time_s() << " s: " << cause << "; shorten coupling.exchange_us (now "
+       << settings_.exchange_s * 1e6 << ") or make the foot heavier";
   throw std::runtime_error(text.str());
 }
 

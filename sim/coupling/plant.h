@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "sim/coupling/coupling_settings.h"
@@ -72,8 +73,10 @@ class Plant {
   void step_rig();
   Wrench prompt_wrench(std::size_t body) const;
   void step_terrain();
+  bool far_above_m(double height_m) const;
   double lowest_point_m() const;
   void guard() const;
+  [[noreturn]] void diverged(const std::string& cause) const;
 
   std::unique_ptr<Rig> rig_;
   std::unique_ptr<Terrain> terrain_;
@@ -84,6 +87,7 @@ class Plant {
   std::vector<Wrench> wrenches_;  // of the last interval
   std::vector<Wrench> before_;    // of the one before it
   std::int64_t intervals_ = 0;
+  std::vector<double> reach_m_;  // of each body: its farthest vertex from its origin
   bool asleep_ = true;
   bool touched_ = false;
   ExchangeEnergy exchange_energy_;

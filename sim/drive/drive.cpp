@@ -19,6 +19,7 @@ constexpr int kSubsteps = 10;
 
 Drive::Drive(const DriveSettings& settings, double joint_position_rad)
     : settings_(settings),
+      count_rad_(2.0 * std::numbers::pi / (settings.encoder_counts_turn * settings.gear_ratio)),
       position_rad_(joint_position_rad),
       temperature_C_(settings.ambient_C),
       joint_position_rad_(joint_position_rad) {
@@ -57,18 +58,18 @@ void Drive::command(const DriveCommand& command) {
 }
 
 double Drive::encoder_position_rad() const {
-  const double count_rad =
-      2.0 * std::numbers::pi / (settings_.encoder_counts_turn * settings_.gear_ratio);
-  return std::floor((position_rad_ - zero_rad_) / count_rad + 0.5) * count_rad;
+  return std::floor((position_rad_ - zero_rad_) / count_rad_ + 0.5) * count_rad_;
 }
 
 void Drive::sample_encoder(double dt_s) {
   double position = encoder_position_rad();
   for (DriveEffect* effect : effects_) position = effect->encoder_rad(position, dt_s);
   const double difference = (position - counted_position_rad_) / dt_s;
-  const double share =
-      1.0 - std::exp(-2.0 * std::numbers::pi * settings_.velocity_filter_Hz * dt_s);
-  sampled_velocity_rad_s_ += share * (difference - sampled_velocity_rad_s_);
+  if (dt_s != filter_dt_s_) {
+    filter_dt_s_ = dt_s;
+    filter_share_ = 1.0 - std::exp(-2.0 * std::numbers::pi * settings_.velocity_filter_Hz * dt_s);
+  }
+  sampled_velocity_rad_s_ += filter_share_ * (difference - sampled_velocity_rad_s_);
   counted_position_rad_ = sampled_position_rad_ = position;
   for (DriveEffect* effect : effects_) sampled_position_rad_ += effect->zero_shift_rad();
 }
@@ -99,40 +100,56 @@ double Drive::limited_torque_Nm(double wanted_Nm) const {
   return std::clamp(wanted_Nm, -limit, limit);
 }
 
-double Drive::rotor_substep(double h_s, double q_j, double w_j) {
+/// The rotor's sub-steps of one step, while the joint moves evenly from first_rad on. The state is
+/// held in locals: this is where a plant without sand spends its time.
+/// @return the mean torque of the gear on the joint
+double Drive::swing(double h_s, double first_rad, double w_j) {
   const DriveSettings& s = settings_;
   const double J = s.rotor_inertia_kg_m2;
   const double k = s.gear_stiffness_Nm_rad;
   const double c = s.gear_damping_Nm_s_rad;
   const double b = s.viscous_friction_Nm_s_rad;
-  const double start = velocity_rad_s_;
-
-  // Damping implicit, so that any c and b are stable. Coulomb friction as an impulse that brings
-  // the rotor to rest at most: below it the rotor sticks exactly, above it slides against it.
-  const double push = motor_torque_Nm_ - k * (position_rad_ - q_j) + c * w_j;
   const double mass = J + h_s * (c + b);
-  const double free = (J * start + h_s * push) / mass;
-  double coulomb_Nm = s.coulomb_friction_Nm;
-  for (const DriveEffect* effect : effects_) coulomb_Nm += effect->friction_Nm();
-  const double most = h_s * coulomb_Nm / mass;
-  const double w = std::abs(free) <= most ? 0.0 : free - std::copysign(most, free);
-  const double friction_Nm = b * w + (free - w) * mass / h_s;
-  for (DriveEffect* effect : effects_) {
-    effect->note_friction(friction_Nm - b * w, s.coulomb_friction_Nm);
+  double most = h_s * s.coulomb_friction_Nm / mass;
+  double position_rad = position_rad_;
+  double start = velocity_rad_s_;
+  DriveEnergy energy = energy_;
+  double sum_Nm = 0.0;
+  for (int i = 0; i < kSubsteps; ++i) {
+    const double q_j = first_rad + w_j * h_s * i;
+    // Damping implicit, so that any c and b are stable. Coulomb friction as an impulse that brings
+    // the rotor to rest at most: below it the rotor sticks exactly, above it slides against it.
+    const double push = motor_torque_Nm_ - k * (position_rad - q_j) + c * w_j;
+    const double free = (J * start + h_s * push) / mass;
+    if (!effects_.empty()) most = h_s * coulomb_Nm() / mass;
+    const double w = std::abs(free) <= most ? 0.0 : free - std::copysign(most, free);
+    const double friction_Nm = b * w + (free - w) * mass / h_s;
+    for (DriveEffect* effect : effects_) {
+      effect->note_friction(friction_Nm - b * w, s.coulomb_friction_Nm);
+    }
+
+    // The gear's torque over the sub-step is what changed the rotor, not what the spring says at
+    // one of its ends: momentum between rotor and joint is kept to the last bit.
+    const double damper_Nm = c * (w - w_j);
+    sum_Nm += k * (position_rad - q_j) + damper_Nm;
+    position_rad += h_s * w;
+
+    const double mean = 0.5 * (start + w);
+    energy.motor_J += motor_torque_Nm_ * mean * h_s;
+    energy.friction_J += friction_Nm * mean * h_s;
+    energy.gear_damping_J += damper_Nm * (mean - w_j) * h_s;
+    start = w;
   }
+  position_rad_ = position_rad;
+  velocity_rad_s_ = start;
+  energy_ = energy;
+  return sum_Nm / kSubsteps;
+}
 
-  // The gear's torque over the sub-step is what changed the rotor, not what the spring says at one
-  // of its ends: momentum between rotor and joint is kept to the last bit.
-  const double damper_Nm = c * (w - w_j);
-  const double gear_Nm = k * (position_rad_ - q_j) + damper_Nm;
-  velocity_rad_s_ = w;
-  position_rad_ += h_s * w;
-
-  const double mean = 0.5 * (start + w);
-  energy_.motor_J += motor_torque_Nm_ * mean * h_s;
-  energy_.friction_J += friction_Nm * mean * h_s;
-  energy_.gear_damping_J += damper_Nm * (mean - w_j) * h_s;
-  return gear_Nm;
+double Drive::coulomb_Nm() const {
+  double sum_Nm = settings_.coulomb_friction_Nm;
+  for (const DriveEffect* effect : effects_) sum_Nm += effect->friction_Nm();
+  return sum_Nm;
 }
 
 void Drive::warm_up(double dt_s) {
@@ -159,13 +176,8 @@ double Drive::step(double dt_s, double joint_position_rad, double joint_velocity
   // with k dt / 2, a quarter of the toe's own damping.
   const double h_s = dt_s / kSubsteps;
   const double first_rad = joint_position_rad - 0.5 * (kSubsteps - 1) * h_s * joint_velocity_rad_s;
-  double sum_Nm = 0.0;
-  for (int i = 0; i < kSubsteps; ++i) {
-    const double q_j = first_rad + joint_velocity_rad_s * h_s * i;
-    sum_Nm += rotor_substep(h_s, q_j, joint_velocity_rad_s);
-  }
+  joint_torque_Nm_ = swing(h_s, first_rad, joint_velocity_rad_s);
   joint_position_rad_ = first_rad + joint_velocity_rad_s * dt_s;
-  joint_torque_Nm_ = sum_Nm / kSubsteps;
   warm_up(dt_s);
   return joint_torque_Nm_;
 }

@@ -102,10 +102,12 @@ class Drive {
   void sample_encoder(double dt_s);
   double law_torque_Nm() const;
   double limited_torque_Nm(double wanted_Nm) const;
-  double rotor_substep(double h_s, double joint_position_rad, double joint_velocity_rad_s);
+  double swing(double h_s, double first_rad, double joint_velocity_rad_s);
+  double coulomb_Nm() const;
   void warm_up(double dt_s);
 
   DriveSettings settings_;
+  double count_rad_;  // of the encoder, at the joint
   DriveCommand command_;
   bool enabled_ = false;
   DriveError error_ = DriveError::kNone;
@@ -118,6 +120,8 @@ class Drive {
   double counted_position_rad_ = 0.0;  // what speed is the difference of
   double sampled_position_rad_ = 0.0;  // that, and what shifts the zero
   double sampled_velocity_rad_s_ = 0.0;
+  double filter_dt_s_ = 0.0;  // step for which the speed filter takes filter_share_ of what is new
+  double filter_share_ = 0.0;
   double motor_torque_Nm_ = 0.0;
   double temperature_C_;
   /// Joint as of the last step, and the mean gear torque in it.

@@ -16,6 +16,7 @@ constexpr std::array kPureEndings = {"_count", "_ratio", "_friction", "_share", 
 
 /// Keys that hold numbers without a unit.
 constexpr std::array kPureKeys = {
+    "bekker_exponent",      // of the pressure over depth
     "count",                // of spines, grains
     "cycles",               // of the stance ellipse
     "encoder_counts_turn",  // counts in a turn of the motor

@@ -67,6 +67,17 @@ CanFrame any_frame(Generator& random) {
 
 }  // namespace
 
+TEST_CASE("a last line without its newline was cut: it is no record, however it looks") {
+  for (const char* rest : {"(1.000002) can0 010#0A0", "(1.000002) can0 010#0A", "(1.0", "x"}) {
+    std::istringstream input("(1.000001) can0 010#0A000000\n" + std::string(rest));
+    bridge::CandumpReader reader(input, "killed");
+    REQUIRE(reader.next());
+    CHECK_FALSE(reader.cut());
+    CHECK_FALSE(reader.next());
+    CHECK(reader.cut());
+  }
+}
+
 TEST_CASE("lines are written as candump -L writes them", "[candump]") {
   CHECK(line_of(1'767'225'600'001'000'000, frame_of(0x123, {0xDE, 0xAD, 0xBE, 0xEF})) ==
         "(1767225600.001000) can0 123#DEADBEEF\n");

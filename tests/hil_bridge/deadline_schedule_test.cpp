@@ -130,4 +130,7 @@ TEST_CASE("octaves count by their upper ends, and an empty histogram tells zeros
   // 0, 1 us and the negative one; above 1 to 2 us; above 2 to 4 us; above 4 to 8 us.
   CHECK(histogram.octaves() ==
         std::vector<std::pair<std::int64_t, std::uint64_t>>{{1, 3}, {2, 2}, {4, 1}, {8, 1}});
+  // Beyond the range nothing hides behind a power of two.
+  histogram.add(117'000'000);
+  CHECK(histogram.octaves().back() == std::pair<std::int64_t, std::uint64_t>{117'000, 1});
 }

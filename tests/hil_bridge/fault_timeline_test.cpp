@@ -7,7 +7,7 @@
 #include "firmware/protocol/codec.h"
 #include "hil_bridge/session.h"
 #include "sim/config/config_error.h"
-#include "tests/hil_bridge/rigid_bench.h"
+#include "tests/hil_bridge/fault_bench.h"
 
 using namespace hoof;
 using bridge::FaultTimeline;
@@ -20,35 +20,12 @@ namespace {
 
 const FaultTimeline::Drives kToeOnly = {true, false, false};
 
-std::vector<bridge::FaultSpec> parse(const std::string& toml) {
-  return bridge::read_faults(sim::Settings::parse(toml, "faults.toml"));
-}
+const auto parse = test::parse_faults;
+const auto run = test::run_with_faults;
+using Outcome = test::FaultRun;
 
 void build(const std::string& toml) {
   FaultTimeline(parse(toml), kToeOnly);
-}
-
-struct Outcome {
-  SessionResult result;
-  std::vector<SeenFrame> frames;
-};
-
-Outcome run(const std::string& kind, const std::string& toml) {
-  const tools::RunSettings settings = test::rigid_run(kind);
-  const auto experiment = test::rigid_bench(settings);
-  Outcome outcome;
-  const auto wires = bridge::in_process_wires([&](int bus, const hal::CanFrame& frame) {
-    outcome.frames.push_back({bus, frame});
-  });
-  FaultTimeline faults(parse(toml), settings.has_drives());
-  bridge::SessionSettings session;
-  session.has_toes = settings.foot.has_toes;
-  session.toe_rad = settings.toe_rad();
-  session.firmware_leg = settings.firmware_leg();
-  session.frequency_Hz = settings.traction.frequency_Hz;
-  session.faults = &faults;
-  outcome.result = bridge::run_session(*experiment, settings.parameters, *wires, session, {});
-  return outcome;
 }
 
 std::size_t frames_between(const Outcome& outcome, std::uint32_t id, double from_s, double to_s) {
@@ -106,6 +83,44 @@ TEST_CASE("a fault that is written wrong is told by file, line, key, value and b
     CAPTURE(c.toml);
     CHECK_THROWS_WITH(build(c.toml), Catch::Contains(c.message));
     CHECK_THROWS_AS(build(c.toml), sim::ConfigError);
+  }
+}
+
+TEST_CASE("faults of a board are refused where the firmware is not in this process") {
+  /// As one on the bus, without a board that could be reached.
+  class Elsewhere final : public bridge::FirmwareNode {
+   public:
+    Elsewhere(hal::CanBus& bus0, hal::CanBus& bus1, const hal::Clock& clock,
+              const firmware::app::Parameters& parameters)
+        : inner_(bus0, bus1, clock, parameters) {}
+    void poll(std::uint32_t tick) override { inner_.poll(tick); }
+    const firmware::app::Telemetry& telemetry() const override { return inner_.telemetry(); }
+
+   private:
+    bridge::LocalFirmware inner_;
+  };
+  const tools::RunSettings settings = test::rigid_run("sinkage");
+  const bridge::FirmwareMaker make = [&](hal::CanBus& bus0, hal::CanBus& bus1,
+                                         const hal::Clock& clock) {
+    return std::make_unique<Elsewhere>(bus0, bus1, clock, settings.parameters);
+  };
+  const auto bind = [&](const std::string& fault) {
+    const auto experiment = test::rigid_bench(settings);
+    const auto wires = bridge::in_process_wires({});
+    FaultTimeline faults(parse("[[fault]]\nat_s = 1\n" + fault), kToeOnly);
+    bridge::LockStep lock_step(*experiment, make, faults.wires(*wires));
+    faults.bind(lock_step, *experiment);
+  };
+  for (const char* fault : {"kind = \"brown_out\"", "kind = \"estop\"\ntarget = \"line\"",
+                            "kind = \"node_restart\"\ntarget = \"foot\""}) {
+    CAPTURE(fault);
+    CHECK_THROWS_WITH(bind(fault), Catch::Contains("faults.toml:3:1: fault.0 (") &&
+                                       Catch::Contains("out of reach; leave out --bus"));
+  }
+  for (const char* fault :
+       {"kind = \"node_restart\"\ntarget = \"toe\"", "kind = \"estop\"\ntarget = \"can0\"",
+        "kind = \"bus_off\"\ntarget = \"foot\""}) {
+    CHECK_NOTHROW(bind(fault));
   }
 }
 

@@ -1,6 +1,7 @@
 #include "hil_bridge/lock_step.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -124,4 +125,57 @@ TEST_CASE("an exchange interval must divide the tick") {
   CHECK_THROWS_AS(Bench("sinkage", {"coupling.exchange_us=70"}), std::invalid_argument);
   CHECK_THROWS_WITH(Bench("sinkage", {"coupling.exchange_us=33.3"}),
                     "coupling.exchange_us = 33.300000 does not divide the control tick of 1000 us");
+}
+
+namespace {
+
+/// Time from outside: most ticks come one by one, every hundredth rest has slept through two more.
+class UnevenPace final : public bridge::Pace {
+ public:
+  std::uint32_t rest(const std::function<void()>& poll) override {
+    poll();
+    return ++rests_ % 100 == 0 ? 3 : 1;
+  }
+
+ private:
+  int rests_ = 0;
+};
+
+}  // namespace
+
+TEST_CASE("at a pace from outside the plant keeps up with it, and the foot homes and opens") {
+  const tools::RunSettings run = test::rigid_run("sinkage");
+  const auto experiment = test::rigid_bench(run);
+  std::vector<std::uint32_t> numbers;
+  const auto wires = bridge::in_process_wires([&](int bus, const hal::CanFrame& frame) {
+    protocol::Sync sync;
+    if (bus == 0 && decode(frame, sync) == protocol::DecodeResult::kOk)
+      numbers.push_back(sync.tick);
+  });
+  UnevenPace pace;
+  LockStep lock_step(
+      *experiment,
+      [&](hal::CanBus& bus0, hal::CanBus& bus1, const hal::Clock& clock) {
+        return std::make_unique<bridge::LocalFirmware>(bus0, bus1, clock, run.parameters);
+      },
+      *wires, &pace);
+  lock_step.supervisor().order(protocol::Order::kReady, 0.2);
+  const auto open = [&] {
+    const auto& toe = lock_step.supervisor().toe();
+    return lock_step.supervisor().accepted() && toe && !toe->moving &&
+           std::abs(double(toe->measured_rad) - 0.2) < 0.01;
+  };
+  while (!open() && lock_step.ticks() < 8'000) lock_step.tick();
+  CHECK(open());
+  CHECK(lock_step.supervisor().trouble() == "");
+  std::size_t jumps = 0;
+  for (std::size_t i = 1; i < numbers.size(); ++i) {
+    const std::uint32_t step = numbers[i] - numbers[i - 1];
+    REQUIRE((step == 1 || step == 3));
+    jumps += step == 3;
+  }
+  CHECK(jumps == numbers.size() / 100);
+  // The plant has gone on by all ticks but those that are due now.
+  CHECK(lock_step.now_ns() >= (std::int64_t(lock_step.ticks()) - 3) * LockStep::kTick_ns);
+  CHECK(experiment->time_s() == Approx(double(lock_step.now_ns()) * 1e-9).epsilon(1e-9));
 }

@@ -45,6 +45,7 @@ class SelectiveFirmware final : public bridge::FirmwareNode {
   struct Queue final : hal::CanBus {
     explicit Queue(hal::CanBus& wire) : wire(wire) {}
     hal::SendResult send(const hal::CanFrame& frame) override { return wire.send(frame); }
+    void withdraw(std::uint32_t id) override { wire.withdraw(id); }
     bool receive(hal::CanFrame& frame) override {
       if (waiting.empty()) return false;
       frame = waiting.front();

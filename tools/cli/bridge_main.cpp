@@ -28,12 +28,13 @@ void add_options(CLI::App& app, BridgeOptions& options) {
       ->type_name("NAME|FILE")
       ->capture_default_str();
   add_bus_options(app, options.bus)->required();
-  app.add_option("--terrain", options.terrain, "Grains (dem) or a rigid plane")
-      ->type_name("dem|rigid")
-      ->check(CLI::IsMember({"dem", "rigid"}));
+  app.add_option("--terrain", options.terrain, "Grains (dem), a fast law (rft) or a rigid plane")
+      ->type_name("dem|rft|rigid")
+      ->check(CLI::IsMember({"dem", "rft", "rigid"}));
   add_fault_options(app, options.faults);
   add_run_options(app, options.run);
   app.footer(
+      fault_help() +
       "The firmware must be on the bus already; its parameters are set from here, over the bus.\n"
       "Examples:\n"
       "  hoof-firmware --bus vcan0 --clock lock-step &\n"

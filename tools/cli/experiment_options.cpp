@@ -34,6 +34,7 @@ constexpr std::string_view kFrequencyKey = "experiment.frequency_Hz";
 constexpr std::string_view kToeKey = "experiment.toe_deg";
 constexpr std::string_view kBedKey = "use.bed";
 constexpr std::string_view kTerrainKey = "experiment.terrain";
+constexpr std::string_view kSoilKey = "use.rft_terrain";
 constexpr std::string_view kDriveKey = "experiment.drive";
 constexpr std::string_view kBusKey = "experiment.bus";
 constexpr std::string_view kFirmwareKey = "experiment.firmware";
@@ -151,7 +152,8 @@ std::string examples(Experiment experiment) {
            "  hoof sinkage\n"
            "  hoof sinkage --foot traditional --load 40 --speed 0.1 --bed bench --seed 3\n"
            "  hoof sinkage --foot bionic --toe 30 --load 400N --out runs/toe-30 --force\n"
-           "  hoof sinkage --terrain rigid --faults faults.toml\n"
+           "  hoof sinkage --terrain rigid --faults tools/faults/example.toml\n"
+           "  hoof sinkage --terrain rft --soil soil.toml\n"
            "  hoof sinkage --terrain rigid --firmware emulated\n"
            "  hoof sinkage --resume runs/toe-30.resume\n"
            "  hoof sinkage --bus vcan0                          firmware and plant as two "
@@ -273,9 +275,14 @@ void add_experiment_options(CLI::App& command, ExperimentOptions& options, Exper
   command.add_option("--bed", options.bed, "Preset demo, bench or paper, or a file")
       ->type_name("PRESET|FILE")
       ->check(name_or_file(kBeds, ""));
-  command.add_option("--terrain", options.terrain, "Grains (dem) or a rigid plane")
-      ->type_name("dem|rigid")
-      ->check(one_of({"dem", "rigid"}));
+  command
+      .add_option("--terrain", options.terrain, "Grains (dem), a fast law (rft) or a rigid plane")
+      ->type_name("dem|rft|rigid")
+      ->check(one_of({"dem", "rft", "rigid"}));
+  command
+      .add_option("--soil", options.soil, "Of --terrain rft: demo, or a file of hoof terrain fit")
+      ->type_name("NAME|FILE")
+      ->check(name_or_file({"demo"}, ".toml"));
   command
       .add_option("--firmware", options.firmware,
                   "The loop in this process, or the board's image in an emulator")
@@ -285,7 +292,7 @@ void add_experiment_options(CLI::App& command, ExperimentOptions& options, Exper
   add_fault_options(command, options.faults);
   add_run_options(command, options.run);
   add_resume_options(command, options);
-  command.footer(examples(experiment));
+  command.footer(fault_help() + examples(experiment));
 }
 
 std::vector<std::string> settings_overrides(const ExperimentOptions& options) {
@@ -313,6 +320,7 @@ std::vector<std::string> settings_overrides(const ExperimentOptions& options) {
   add_number(kToeKey, options.toe);
   add_text(kBedKey, options.bed);
   add_text(kTerrainKey, options.terrain);
+  add_text(kSoilKey, options.soil);
   add_text(kDriveKey, options.drive);
   add_text(kBusKey, options.bus.bus);
   add_text(kFirmwareKey, options.firmware);

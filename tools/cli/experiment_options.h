@@ -19,19 +19,20 @@ enum class Experiment { kSinkage, kTraction };
 /// names flag, value and bound.
 struct ExperimentOptions {
   RunOptions run;
-  std::string foot;              ///< bionic, bionic-plain, traditional or a path ending in .stl
-  std::string load;              ///< "40" or "40kg": a mass; "400N": a force
-  std::string load_as;           ///< force or mass: how the load acts on the foot
-  std::string speed;             ///< m/s, downward at first contact (sinkage)
-  std::string frequency;         ///< Hz, of the stance ellipse (traction)
-  std::string toe;               ///< degrees per side, 0..40
-  std::string bed;               ///< preset demo, bench, paper, or a file
-  std::string terrain;           ///< dem or rigid
-  std::string drive;             ///< firmware or prescribed
-  BusOptions bus;                ///< not given: firmware and plant in this process
-  std::string firmware;          ///< host or emulated
-  FaultOptions faults;           ///< put in on the way; none in a clean run
-  std::filesystem::path resume;  ///< folder of an unfinished run; its settings hold, not these
+  std::string foot;                 ///< bionic, bionic-plain, traditional or a path ending in .stl
+  std::string load;                 ///< "40" or "40kg": a mass; "400N": a force
+  std::string load_as;              ///< force or mass: how the load acts on the foot
+  std::string speed;                ///< m/s, downward at first contact (sinkage)
+  std::string frequency;            ///< Hz, of the stance ellipse (traction)
+  std::string toe;                  ///< degrees per side, 0..40
+  std::string bed;                  ///< preset demo, bench, paper, or a file
+  std::string terrain;              ///< dem, rft or rigid
+  std::string soil;                 ///< of rft: preset or file
+  std::string drive;                ///< firmware or prescribed
+  BusOptions bus;                   ///< not given: firmware and plant in this process
+  std::string firmware;             ///< host or emulated
+  FaultOptions faults;              ///< put in on the way; none in a clean run
+  std::filesystem::path resume;     ///< folder of an unfinished run; its settings hold, not these
   double checkpoint_every_min = RunOutput().checkpoint_every_s / 60;
 };
 

@@ -4,12 +4,14 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <thread>
 
 #include "firmware/protocol/dictionary.h"
 #include "tools/faults/matrix.h"
 #include "tools/faults/matrix_report.h"
 #include "tools/run/errors.h"
 #include "tools/run/output_file.h"
+#include "tools/run/stop_request.h"
 
 namespace hoof::tools {
 namespace {
@@ -17,7 +19,7 @@ namespace {
 struct Options {
   std::vector<std::string> modes;
   std::string only;
-  int jobs = 1;
+  int jobs = std::clamp(int(std::thread::hardware_concurrency()), 1, 64);
   std::filesystem::path out = "runs/study-faults";
 };
 
@@ -36,20 +38,30 @@ void run(const Options& options) {
     const auto place = std::find(names.begin(), names.end(), mode) - names.begin();
     matrix.modes.push_back(static_cast<firmware::control::Mode>(place));
   }
-  std::cout
-      << "mode           fault                                 trip   safe  moves again  bits\n"
-         "                                                       ms     ms\n";
-  const std::vector<MatrixCell> cells =
-      run_matrix(matrix, [](const MatrixCell& cell) { std::cout << cell_line(cell) << std::endl; });
+  std::cout << "mode           fault                                 trip   safe  surge  reset     "
+               "  bits\n"
+               "                                                       ms     ms     ms\n";
+  const StopRequest stop;
+  const std::vector<MatrixCell> cells = run_matrix(matrix, [&stop](const MatrixCell& cell) {
+    std::cout << cell_line(cell) << std::endl;
+    return !stop.requested();
+  });
+  if (stop.requested()) {
+    throw Interrupted("stopped after " + std::to_string(cells.size()) + " cells; no table written",
+                      stop.exit_status());
+  }
   if (cells.empty()) throw UserError("--only " + options.only + ": no fault has that in its name");
   std::filesystem::create_directories(options.out);
   write_file(options.out / "faults.xml", matrix_junit(cells));
-  write_file(options.out / "faults.html", matrix_html(cells));
+  write_file(options.out / "report.html", matrix_html(cells));
   write_file(options.out / "faults.md", matrix_markdown(cells));
-  std::size_t missed = 0;
-  for (const MatrixCell& cell : cells) missed += !cell.misses.empty();
-  std::cout << cells.size() << " cells, " << missed << " missed; table in "
-            << (options.out / "faults.html").string() << std::endl;
+  std::size_t missed = 0, gaps = 0;
+  for (const MatrixCell& cell : cells) {
+    missed += !cell.misses.empty();
+    gaps += !cell.gaps.empty();
+  }
+  std::cout << cells.size() << " cells, " << missed << " missed, " << gaps << " known gaps; table in "
+            << (options.out / "report.html").string() << std::endl;
   if (missed > 0) throw BarMissed(std::to_string(missed) + " cells are not as expected");
 }
 
@@ -65,17 +77,19 @@ void add_fault_matrix(CLI::App& study, Invocation& invocation) {
       ->check(CLI::IsMember(mode_names()));
   command->add_option("--only", options->only, "Only faults with this in their name")
       ->type_name("TEXT");
-  command->add_option("--jobs", options->jobs, "Cells at a time, 1..64; the table is the same")
+  command
+      ->add_option("--jobs", options->jobs,
+                   "Cells at a time, 1..64 [one per processor]; the table is the same")
       ->type_name("N")
-      ->check(CLI::Range(1, 64))
-      ->capture_default_str();
+      ->check(CLI::Range(1, 64));
   command->add_option("--out", options->out, "Folder of the table: HTML, markdown, JUnit XML")
       ->type_name("DIR")
       ->capture_default_str();
   command->footer(
-      "On rigid ground, in process. Exit status 1 where a cell is not as expected.\n"
+      "On rigid ground, in process. Writes report.html, faults.md and faults.xml (JUnit).\n"
+      "Exit status 1 where a cell is not as expected.\n"
       "Examples:\n"
-      "  hoof study faults --jobs 2\n"
+      "  hoof study faults\n"
       "  hoof study faults --mode running --only encoder");
   command->callback([&invocation, options] { invocation.run = [options] { run(*options); }; });
 }

@@ -15,6 +15,9 @@ struct FaultOptions {
 /// Adds --faults and --fault.
 void add_fault_options(CLI::App& command, FaultOptions& options);
 
+/// For the end of --help: kinds of fault, how one begins, what can be waited for.
+std::string fault_help();
+
 /// Those of --fault as settings; the file is merged by read_run_settings().
 void add_fault_overrides(const FaultOptions& options, std::vector<std::string>& overrides);
 

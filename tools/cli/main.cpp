@@ -34,7 +34,8 @@ int main(int argc, char** argv) {
   app.name("hoof");
   app.footer(
       "tools/hoof test [--full] [ctest arguments] builds and runs all tests.\n"
-      "tools/hoof benchmark dem|boundary|lockstep|trajectory|cost|firmware measures speed.\n"
+      "tools/hoof benchmark dem|boundary|terrain|lockstep|soak|trajectory|cost|firmware measures "
+      "speed.\n"
       "tools/hoof firmware build|size|flash makes, measures and flashes the board's image.\n"
       "tools/hoof bridge is the plant alone on a CAN bus; firmware run, the firmware alone.\n"
       "hoof COMMAND --help shows a command's flags and examples.");
@@ -44,6 +45,7 @@ int main(int argc, char** argv) {
   add_sinkage_command(app, invocation);
   add_traction_command(app, invocation);
   add_study_command(app, invocation);
+  add_terrain_command(app, invocation);
   add_bed_command(app, invocation);
   add_order_command(app, invocation);
   add_param_command(app, invocation);

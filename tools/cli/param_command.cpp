@@ -63,8 +63,8 @@ void add_set(CLI::App& parent, Invocation& invocation, const Options& options) {
   command->add_option("NAME=VALUE", options->assignments, "In the unit of the name")->required();
   command->add_flag("--store", options->store, "Keep them without power, too");
   command->callback([&invocation, options] {
-    const auto assignments = parse_assignments(options->assignments);
-    invocation.run = [options, assignments] {
+    invocation.run = [options] {
+      const auto assignments = parse_assignments(options->assignments);
       with_foot(options->foot, [&](bridge::ServiceClient& client) {
         set_parameters(client, assignments, std::cout);
         if (options->store) store(client);

@@ -77,7 +77,7 @@ void add_study_command(CLI::App& app, Invocation& invocation) {
       "  hoof study resolution --full --threads 2    to the paper's grains, an hour\n"
       "  hoof study box --bodies foot --beds 3\n"
       "  hoof study time-step --scales 1\n"
-      "  hoof study faults --jobs 2                  every fault in every mode, a minute");
+      "  hoof study faults                           every fault in every mode, a minute");
   add_study(*command, invocation, "resolution",
             "Spined against plain, open against closed: effect over the scatter of beds",
             run_resolution_study);

@@ -145,7 +145,9 @@ void BxCan::write_transmit_status(std::uint32_t value) {
     if ((bits & kCompleted) != 0) m.result = 0;
     m.result &= ~(bits & kResult);
     if ((bits & kAbort) == 0 || !m.pending) continue;
-    m.pending = m.offered = false;  // what is on the wire already still ends there
+    // What is on the wire ends there, and its mailbox is full until then.
+    if (m.offered && !wire_->withdraw(frame_of(m.identifier, m.length, m.low, m.high))) continue;
+    m.pending = m.offered = false;
     m.identifier &= ~kRequest;
     m.result = kCompleted;
   }

@@ -14,6 +14,7 @@ class SilentWire final : public CanWire {
     sent_.push_back(frame);
     return true;
   }
+  bool withdraw(const hal::CanFrame&) override { return false; }
   bool take(hal::CanFrame&) override { return false; }
   std::vector<hal::CanFrame> take_sent() override { return std::exchange(sent_, {}); }
   hal::BusStatus status() const override { return {}; }
@@ -39,6 +40,14 @@ class BusWire final : public CanWire {
   bool offer(const hal::CanFrame& frame) override {
     if (bus_.send(frame) != hal::SendResult::kQueued) return false;
     if (in_process_ == nullptr) offered_.push_back(frame);
+    return true;
+  }
+
+  bool withdraw(const hal::CanFrame& frame) override {
+    const int free_before = bus_.status().free;
+    bus_.withdraw(frame.id);
+    if (bus_.status().free <= free_before) return false;
+    std::erase(offered_, frame);
     return true;
   }
 

@@ -15,6 +15,8 @@ class CanWire {
 
   /// A frame for the wire, which arbitrates by itself. @return false: later
   virtual bool offer(const hal::CanFrame& frame) = 0;
+  /// Takes back a frame that was offered. @return false: too late, or it cannot be known
+  virtual bool withdraw(const hal::CanFrame& frame) = 0;
   /// The oldest frame that came.
   virtual bool take(hal::CanFrame& frame) = 0;
   /// Frames of ours that have left since the last call, in order.

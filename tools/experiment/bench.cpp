@@ -9,6 +9,7 @@
 #include "sim/multibody/traction_rig.h"
 #include "sim/terrain/bed_store.h"
 #include "sim/terrain/dem_terrain.h"
+#include "sim/terrain/rft_terrain.h"
 
 namespace hoof::tools {
 namespace {
@@ -51,7 +52,8 @@ sim::BedState settled_bed(const RunSettings& run, const BenchProgress& progress,
 std::unique_ptr<sim::Terrain> make_terrain(const RunSettings& run, const BenchProgress& progress,
                                            const BenchNote& note,
                                            const std::optional<sim::JournalSettings>& journal) {
-  if (!run.on_grains) return std::make_unique<sim::RigidTerrain>(run.rigid);
+  if (run.terrain == "rigid") return std::make_unique<sim::RigidTerrain>(run.rigid);
+  if (run.terrain == "rft") return std::make_unique<sim::RftTerrain>(run.rft);
   const Eigen::Vector2d print_m = footprint_m(run.foot, run.toe_rad());
   for (const std::string& warning : sim::box_warnings(run.bed, print_m.x(), print_m.y())) {
     note(warning);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "hil_bridge/fault_targets.h"
 #include "hil_bridge/recording_facts.h"
 #include "tools/run/output_file.h"
 #include "tools/run/sha256.h"
@@ -29,9 +30,20 @@ std::vector<std::string> columns(const RunSettings& run) {
   return names;
 }
 
+bridge::RecordingFacts facts_of(const RunSettings& run, const std::string& wires) {
+  auto facts = bridge::recording_facts(wires, run.coupling.exchange_s, run.parameters);
+  for (const bridge::FaultSpec& fault : run.faults) {
+    if (bridge::unseen_by_bus(fault, bridge::find_target(fault, run.has_drives()))) {
+      facts.unseen_faults.push_back(fault.name());
+    }
+  }
+  return facts;
+}
+
 }  // namespace
 
-Recorder::Recorder(const RunSettings& run, const std::filesystem::path& folder, bool live)
+Recorder::Recorder(const RunSettings& run, const std::string& wires,
+                   const std::filesystem::path& folder, bool live)
     : run_(run),
       samples_(folder / "samples.csv", columns(run)),
       bus_log_({(folder / "bus.log").string()}),
@@ -42,8 +54,7 @@ Recorder::Recorder(const RunSettings& run, const std::filesystem::path& folder, 
   start.code_version = std::string(build_version().code);
   start.firmware_hash = sha256_hex_of_file(run.image.empty() ? "/proc/self/exe" : run.image);
   telemetry_.write(start);
-  write_file(folder / bridge::kRecordingFactsFile,
-             to_json(bridge::recording_facts(run.bus, run.coupling.exchange_s, run.parameters)));
+  write_file(folder / bridge::kRecordingFactsFile, to_json(facts_of(run, wires)));
 }
 
 std::vector<CsvCell> Recorder::cells(const bridge::TickRecord& r) const {

@@ -21,8 +21,10 @@ struct ForceSample {
 
 class Recorder {
  public:
+  /// @param wires what carries the frames, as recording.json is to name it
   /// @throws UserError, std::system_error where a file cannot be written
-  Recorder(const RunSettings& run, const std::filesystem::path& folder, bool live);
+  Recorder(const RunSettings& run, const std::string& wires, const std::filesystem::path& folder,
+           bool live);
 
   void frame(int bus, const hal::CanFrame& frame) { bus_log_.write(bus, frame); }
   void tick(const bridge::TickRecord& record);

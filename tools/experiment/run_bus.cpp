@@ -57,24 +57,29 @@ void check_bus_choice(const RunSettings& run, const BusChoice& choice) {
     throw UserError(
         "--clock real-time needs a CAN interface with a firmware on it, e.g. --bus vcan0");
   }
-  if (run.on_grains) {
+  if (run.on_grains()) {
     throw UserError(
         "--clock real-time: grains take seconds of computing for a second of sand; only ground "
-        "that keeps up with the wall's clock can be used: add --terrain rigid");
+        "that keeps up with the wall's clock can be used: add --terrain rft or --terrain rigid");
   }
 }
 
-RunBus::RunBus(const RunSettings& run, const BusChoice& choice) : run_(run), choice_(choice) {
+RunBus::RunBus(const RunSettings& run, const BusChoice& choice,
+               const std::function<bool()>& stopped)
+    : run_(run), choice_(choice) {
   check_bus_choice(run, choice);
   if (run.bus == kInProcess) return;
   line_ = std::make_unique<bridge::RemoteLine>(run.bus);
-  line_->await_heartbeat(nanoseconds(choice.patience_s));
+  line_->await_heartbeat(nanoseconds(choice.patience_s), stopped);
 }
 
 bridge::Wires& RunBus::start(bridge::Wires::Observer observer) {
   if (remote()) {
     parameters_changed_ = line_->pass_parameters(run_.parameters, nanoseconds(choice_.patience_s));
-    if (choice_.real_time) require_presence();
+    if (choice_.real_time) {
+      require_presence();
+      line_.reset();  // nobody would read it any more
+    }
   }
   wires_ = remote() && choice_.real_time ? bridge::socketcan_wires(run_.bus, std::move(observer))
                                          : bridge::in_process_wires(std::move(observer));

@@ -2,6 +2,7 @@
 // wires, or one elsewhere on a CAN interface, in lock-step or in real time.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -26,13 +27,17 @@ void check_bus_choice(const RunSettings& run, const BusChoice& choice);
 
 class RunBus {
  public:
-  /// On a CAN interface: waits for the foot's heartbeat.
+  /// On a CAN interface: waits for the foot's heartbeat, until `stopped` says so.
   /// @throws as check_bus_choice; std::runtime_error where nobody is there
-  RunBus(const RunSettings& run, const BusChoice& choice);
+  RunBus(const RunSettings& run, const BusChoice& choice,
+         const std::function<bool()>& stopped = {});
 
   /// Passes the parameters and makes the wires. Once.
   bridge::Wires& start(bridge::Wires::Observer observer);
   bridge::FirmwareMaker firmware();
+  /// "in_process" where the frames go over simulated wires, as those of a lock-step run do wherever
+  /// its firmware is; else the interfaces.
+  std::string wires_name() const { return choice_.real_time ? run_.bus : kInProcess; }
   /// Null in lock-step.
   bridge::Pace* pace() { return pace_ ? pace_.get() : nullptr; }
 
@@ -41,12 +46,12 @@ class RunBus {
   std::string text() const;
 
  private:
-  bool remote() const { return line_ != nullptr; }
+  bool remote() const { return run_.bus != kInProcess; }
   void require_presence() const;
 
   const RunSettings& run_;
   BusChoice choice_;
-  std::unique_ptr<bridge::RemoteLine> line_;  // null in one process
+  std::unique_ptr<bridge::RemoteLine> line_;  // null in one process, and once real time began
   std::unique_ptr<bridge::Wires> wires_;
   std::unique_ptr<bridge::RealTimePace> pace_;
   std::vector<std::string> refused_;  // of what real time asks of the system

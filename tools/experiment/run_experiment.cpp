@@ -59,7 +59,7 @@ Places new_places(const RunSettings& run, const RunOutput& output) {
     places.resume = ResumeFolder::begin(path, run.kind, run.tree.to_toml(), output.force);
     if (places.resume) {
       // Without grains a run is done sooner than resumed.
-      if (!run.on_grains || output.checkpoint_every_s == 0) places.resume.reset();
+      if (!run.on_grains() || output.checkpoint_every_s == 0) places.resume.reset();
       return places;
     }
     if (!output.out.empty()) {
@@ -96,10 +96,11 @@ class Run {
   /// Before anything is built: a firmware that is not there is told at once.
   void connect() {
     try {
-      bus_.emplace(run_, output_.bus);
+      bus_.emplace(run_, output_.bus, [this] { return stop_.requested(); });
     } catch (const UserError&) {
       throw;
     } catch (const std::runtime_error& error) {
+      if (stop_.requested()) throw Interrupted(error.what(), stop_.exit_status());
       throw CannotFinish(error.what());
     }
   }
@@ -117,7 +118,7 @@ class Run {
     const sim::SandBed* sand = find_sand(experiment_->plant().terrain());
     sim::BedState untouched;
     if (sand != nullptr) untouched = sand->state();
-    recorder_ = std::make_unique<Recorder>(run_, folder_->working_path(), output_.live);
+    recorder_ = std::make_unique<Recorder>(run_, bus_->wires_name(), folder_->working_path(), output_.live);
     const bridge::SessionResult session = drive();
     if (session.interrupted) save_for_resuming();
     recorder_->close();
@@ -208,6 +209,7 @@ class Run {
     } catch (const std::runtime_error& error) {
       progress_->finish();
       recorder_->close();
+      std::cerr << bus_->text();  // in real time, how late the machine was may be the reason
       const std::filesystem::path kept = folder_->keep_as("failed");
       throw CannotFinish(std::string(error.what()) + "; samples and bus log are kept in " +
                          kept.string() + checkpoint_kept());
@@ -270,6 +272,7 @@ class Run {
                   deg("toe_command_rad"), deg("toe_reached_rad"), deg("toe_deflection_rad"));
     }
     print_faults(r);
+    if (run_.terrain == "rft") std::printf("%s\n", soil_line(run_).c_str());
     for (const auto& [joint, limited_s] : r.at("torque_limited_s").items()) {
       if (limited_s.get<double>() > 0) {
         std::printf("%s drive: at its torque limit for %.2f s\n", joint.c_str(),

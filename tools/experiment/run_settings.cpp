@@ -10,6 +10,7 @@
 #include "sim/config/config_error.h"
 #include "sim/config/reader.h"
 #include "sim/config/suggestion.h"
+#include "tools/experiment/run_bus.h"
 #include "tools/run/csv_writer.h"
 #include "tools/run/errors.h"
 
@@ -18,9 +19,9 @@ namespace {
 
 using firmware::app::Parameters;
 
-constexpr std::array<std::string_view, 11> kSections = {
-    "experiment", "foot",          "leg",     "bed", "materials", "drives",
-    "coupling",   "rigid_terrain", "control", "use", "fault"};
+constexpr std::array<std::string_view, 12> kSections = {
+    "experiment", "foot",        "leg",           "bed",     "materials", "drives",
+    "coupling",   "rft_terrain", "rigid_terrain", "control", "use",       "fault"};
 
 void refuse_unknown_sections(const sim::Settings& tree) {
   for (const auto& [key, entry] : tree.entries()) {
@@ -29,7 +30,8 @@ void refuse_unknown_sections(const sim::Settings& tree) {
       throw sim::ConfigError(entry.origin.text() + ": " + key + ": no section '" +
                              std::string(section) +
                              "'; known are experiment, foot, leg, bed, "
-                             "materials, drives, coupling, rigid_terrain, control, fault");
+                             "materials, drives, coupling, rft_terrain, rigid_terrain, control, "
+                             "fault");
     }
   }
 }
@@ -122,9 +124,7 @@ std::string built_image() {
 void read_experiment(const sim::Reader& root, RunSettings& run) {
   sim::Reader section = root.section("experiment");
   section.choice("kind", run.kind, {"sinkage", "traction"});
-  std::string terrain;
-  section.choice("terrain", terrain, {"dem", "rigid"});
-  run.on_grains = terrain == "dem";
+  section.choice("terrain", run.terrain, {"dem", "rft", "rigid"});
   section.text("bus", run.bus);
   std::string firmware, image;
   section.choice("firmware", firmware, {"host", "emulated"});
@@ -172,7 +172,10 @@ void merge_faults(const std::string& fault_file, sim::Settings& tree) {
 
 void read_faults(RunSettings& run) {
   run.faults = bridge::read_faults(run.tree);
-  for (const bridge::FaultSpec& fault : run.faults) bridge::find_target(fault, run.has_drives());
+  for (const bridge::FaultSpec& fault : run.faults) {
+    bridge::find_target(fault, run.has_drives());
+    if (run.bus != kInProcess && bridge::needs_board(fault)) bridge::refuse_without_board(fault);
+  }
 }
 
 }  // namespace
@@ -205,6 +208,7 @@ RunSettings read_run_settings(const std::string& experiment,
   run.materials = sim::read_materials(root.section("materials"));
   read_drives(root, run);
   run.coupling = sim::read_coupling(root.section("coupling"));
+  run.rft = sim::read_rft_terrain(root.section("rft_terrain"));
   run.rigid = sim::read_rigid_terrain(root.section("rigid_terrain"));
   run.parameters = rig_parameters(run);
   read_control(run.tree, run.parameters);

@@ -15,6 +15,7 @@
 #include "sim/multibody/foot.h"
 #include "sim/multibody/leg.h"
 #include "sim/terrain/bed_settings.h"
+#include "sim/terrain/rft_settings.h"
 #include "sim/terrain/rigid_terrain.h"
 
 namespace hoof::tools {
@@ -23,8 +24,8 @@ struct RunSettings {
   sim::Settings tree;  // everything as resolved; written beside the results
   std::string kind;    // "sinkage" or "traction"
   std::string foot_name;
-  bool on_grains = true;
-  std::string bus;  // "in_process", or SocketCAN interfaces
+  std::string terrain;  // "dem", "rft" or "rigid"
+  std::string bus;      // "in_process", or SocketCAN interfaces
   std::string image;  // the board's, an ELF file; empty: the firmware runs in this process
   std::uint64_t seed = 0;
   int threads = 1;
@@ -36,11 +37,13 @@ struct RunSettings {
   sim::DriveSet drives;
   sim::CouplingSettings coupling;
   sim::RigidTerrainSettings rigid;
+  sim::RftTerrainSettings rft;
   sim::SinkageSettings sinkage;    // of a sinkage run
   sim::TractionSettings traction;  // of a traction run
   firmware::app::Parameters parameters;
   std::vector<bridge::FaultSpec> faults;  // put in on the way; none in a clean run
 
+  bool on_grains() const { return terrain == "dem"; }
   bool is_sinkage() const { return kind == "sinkage"; }
   double toe_rad() const { return is_sinkage() ? sinkage.toe_rad : traction.toe_rad; }
   std::array<bool, sim::kJointCount> has_drives() const;

@@ -48,9 +48,22 @@ Json resolution(const RunSettings& run, double sinkage_m) {
   return j;
 }
 
+std::string hex(std::uint64_t hash) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+  return text;
+}
+
 Json ground(const RunSettings& run, const sim::Experiment& experiment) {
   Json j = Json::object();
-  j["terrain"] = run.on_grains ? "dem" : "rigid";
+  j["terrain"] = run.terrain;
+  if (run.terrain == "rft") {
+    j["soil"] = run.rft.name;
+    j["soil_hash"] = hex(run.rft.hash());
+    j["fitted_to"] = run.rft.fitted_to;
+    j["fit_error_ratio"] = run.rft.fit_error;
+    j["held_out_error_ratio"] = run.rft.held_out_error;
+  }
   const sim::SandBed* sand = find_sand(experiment.plant().terrain());
   if (sand == nullptr) return j;
   const sim::BedHealth health = sand->health();
@@ -60,9 +73,7 @@ Json ground(const RunSettings& run, const sim::Experiment& experiment) {
   j["bed_steps"] = health.steps;
   j["list_rebuilds"] = health.rebuilds;
   j["deepest_overlap_ratio"] = health.deepest_boundary_ratio;
-  char hash[17];
-  std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(sand->state_hash()));
-  j["state_hash"] = hash;
+  j["state_hash"] = hex(sand->state_hash());
   return j;
 }
 
@@ -82,11 +93,13 @@ Json faults(const bridge::SessionResult& session) {
 
 Json reaction(const bridge::SessionResult& session) {
   const bridge::Reaction& r = *session.reaction;
-  std::optional<double> first_s, until_safe_s;
+  // Of the fault that began last before the firmware told one: those before it were borne.
+  std::optional<double> cause_s, until_safe_s;
   for (const bridge::FaultOutcome& fault : session.faults) {
-    if (fault.began_s && (!first_s || *fault.began_s < *first_s)) first_s = fault.began_s;
+    const bool before = fault.began_s && (!r.tripped_s || *fault.began_s <= *r.tripped_s);
+    if (before && (!cause_s || *fault.began_s > *cause_s)) cause_s = fault.began_s;
   }
-  if (first_s && r.safe_s) until_safe_s = std::max(0.0, *r.safe_s - *first_s);
+  if (cause_s && r.safe_s) until_safe_s = std::max(0.0, *r.safe_s - *cause_s);
   return {{"faults", bridge::fault_bit_names(r.faults)},
           {"ended_by", session.ended_by},
           {"tripped_s", seconds(r.tripped_s)},
@@ -116,16 +129,19 @@ Json firmware_identity(const RunSettings& run) {
 
 void print_faults(const Json& result) {
   if (!result.contains("reaction")) return;
+  const auto time_of = [](const Json& values, const char* key) {
+    char text[32] = "never";
+    const Json& time_s = values[key];
+    if (!time_s.is_null()) std::snprintf(text, sizeof text, "%.3f s", time_s.get<double>());
+    return std::string(text);
+  };
   for (const auto& [name, fault] : result["faults"].items()) {
-    std::printf("%s: from %.3f s on, changed %s\n", name.c_str(), fault["began_s"].get<double>(),
+    std::printf("%s: from %s to %s, changed %s\n", name.c_str(), time_of(fault, "began_s").c_str(),
+                fault["ended_s"].is_null() ? "the end" : time_of(fault, "ended_s").c_str(),
                 fault["changed"].dump().c_str());
   }
   const Json& r = result["reaction"];
-  const auto time = [&r](const char* key) {
-    char text[32] = "never";
-    if (!r[key].is_null()) std::snprintf(text, sizeof text, "%.3f s", r[key].get<double>());
-    return std::string(text);
-  };
+  const auto time = [&](const char* key) { return time_of(r, key); };
   const auto bits = r["faults"].get<std::string>();
   if (bits.empty()) {
     std::printf("firmware: no fault; mode %s\n", r["mode"].get<std::string>().c_str());
@@ -134,6 +150,16 @@ void print_faults(const Json& result) {
   std::printf("firmware: %s at %s; no drive pushes from %s on; reset worked: %s; mode %s\n",
               bits.c_str(), time("tripped_s").c_str(), time("safe_s").c_str(),
               time("reset_s").c_str(), r["mode"].get<std::string>().c_str());
+}
+
+std::string soil_line(const RunSettings& run) {
+  char text[300];
+  std::snprintf(text, sizeof text,
+                "fast soil '%s' (%s), fitted to %s: off its pushes by %.0f %%, off those held "
+                "out by %.0f %%",
+                run.rft.name.c_str(), hex(run.rft.hash()).c_str(), run.rft.fitted_to.c_str(),
+                100 * run.rft.fit_error, 100 * run.rft.held_out_error);
+  return text;
 }
 
 TractionPeaks find_peaks(const std::vector<ForceSample>& forces) {
@@ -198,7 +224,7 @@ Json summarise(const RunSettings& run, const sim::Experiment& experiment,
   j["exchange_work_J"] = energy.work_by_terrain_J;
   j["exchange_error_J"] = energy.error_J();
   j["ground"] = ground(run, experiment);
-  if (run.on_grains) j["resolution"] = resolution(run, depth);
+  if (run.on_grains()) j["resolution"] = resolution(run, depth);
   j["firmware"] = firmware_identity(run);
   j["version"] = version_json();
   return j;

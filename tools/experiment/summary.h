@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
 #include "hil_bridge/session.h"
@@ -25,6 +26,10 @@ struct TractionPeaks {
     return fz_at_fx_peak_N > 0 ? fx_peak_N / fz_at_fx_peak_N : 0;
   }
 };
+
+/// One line for the user: which fast soil a run was on, and how far it is from what it was fitted
+/// to.
+std::string soil_line(const RunSettings& run);
 
 TractionPeaks find_peaks(const std::vector<ForceSample>& forces);
 

@@ -18,6 +18,13 @@ struct Expectation {
   /// In this mode there may be nothing for the fault to change, such as the torque of a drive that
   /// is off; then it must be harmless.
   bool idle = false;
+  /// So long a drive may push more than a quarter of the gate's ceiling harder than it ever does
+  /// without the fault. Zero but where the drive's own law acts on its own wrong encoder, or on a
+  /// command that nobody gave.
+  double surge_s = 0;
+
+  /// The foot does what it did before.
+  bool goes_on(firmware::control::Mode mode) const;
 };
 
 struct MatrixCase {
@@ -28,7 +35,8 @@ struct MatrixCase {
   Expectation idle;      // in off, fault, emergency off
   /// Modes for which something else holds.
   std::vector<std::pair<firmware::control::Mode, Expectation>> except;
-  std::string why;  // where the expectation needs a reason; told in the table
+  std::string why;   // where the expectation needs a reason; told in the table
+  bool gap = false;  // known not to be met everywhere; `why` says what is in the way
 
   const Expectation& expected(firmware::control::Mode mode) const;
 };

@@ -72,7 +72,9 @@ class Measurement {
   void take(const LoggedFrame& logged) {
     BusStatistics& bus = out_.buses[std::size_t(logged.bus)];
     ++bus.frames;
-    if (logged.frame.error) ++bus.error_frames;
+    if (logged.frame.error && bus.error_frames++ == 0) {
+      find(logged, "the first error frame on this bus");
+    }
     occupy(logged);
     IdStatistics& id = ids_[key_of(logged)];
     if (id.count == 0) {

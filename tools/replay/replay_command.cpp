@@ -79,6 +79,10 @@ void replay_recording(const ReplayRequest& request, std::ostream& out) {
   if (recording.frames.empty()) throw UserError(log.string() + ": no frames");
   for (const std::string& note : facts.notes) out << note << "\n";
   for (const std::string& note : recording.notes) out << note << "\n";
+  for (const std::string& fault : facts.unseen_faults) {
+    out << fault << " reached the firmware by ways that the bus does not show; from its begin on "
+        << "answers may differ\n";
+  }
   if (facts.protocol_hash != firmware::protocol::kProtocolHash) {
     out << "recorded with another message dictionary (" << std::hex << facts.protocol_hash
         << ", here " << firmware::protocol::kProtocolHash << std::dec << ")\n";

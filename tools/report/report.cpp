@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "tools/report/display_unit.h"
+#include "tools/report/fault_section.h"
 #include "tools/report/headline.h"
 #include "tools/report/html.h"
 #include "tools/report/page.h"
@@ -83,7 +84,8 @@ std::string json_phases(const SampleTable& samples, const std::vector<double>& t
   return json + "]";
 }
 
-std::string json_samples(const SampleTable& samples, const std::vector<PlotGroup>& groups) {
+std::string json_samples(const RunData& data, const std::vector<PlotGroup>& groups) {
+  const SampleTable& samples = data.samples;
   const std::vector<double>& time_s = samples.find("time_s")->numbers;
   std::string json = "{\"time_s\":" + json_numbers(time_s, 1.0) + ",\"plots\":[";
   for (std::size_t i = 0; i < groups.size(); ++i) {
@@ -100,13 +102,15 @@ std::string json_samples(const SampleTable& samples, const std::vector<PlotGroup
     }
     json += "]}";
   }
-  return json + "],\"phases\":" + json_phases(samples, time_s) + "}";
+  return json + "],\"phases\":" + json_phases(samples, time_s) +
+         ",\"marks\":" + json_fault_marks(data.result) + "}";
 }
 
 std::string plots_section(const std::vector<PlotGroup>& groups) {
   std::string html =
       "<h2>Signals against time</h2>\n<p class=\"note\">Drag to zoom, double-click to see all; "
-      "click a name in the legend to hide its line. Dashed lines begin a phase.</p>\n"
+      "click a name in the legend to hide its line. Dashed lines begin a phase; dotted ones are of "
+      "faults put in.</p>\n"
       "<noscript>The plots need JavaScript.</noscript>\n<div class=\"plots\">\n";
   for (const PlotGroup& group : groups) {
     html += "<div class=\"plot\">" + element("h3", group.title) +
@@ -167,9 +171,9 @@ std::string make_report(const std::filesystem::path& run_folder) {
   const RunData data = read_run_data(run_folder);
   const std::vector<PlotGroup> groups = group_plots(data.samples);
   const std::string body = "<div class=\"columns\">" + headline_section(data) +
-                           resolution_section(data) + "</div>\n" + drawing_section(data) +
-                           plots_section(groups) + results_sections(data);
-  return make_page(title(data), body, json_samples(data.samples, groups));
+                           resolution_section(data) + "</div>\n" + fault_section(data.result) +
+                           drawing_section(data) + plots_section(groups) + results_sections(data);
+  return make_page(title(data), body, json_samples(data, groups));
 }
 
 std::filesystem::path write_report(const std::filesystem::path& run_folder) {

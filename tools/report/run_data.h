@@ -22,7 +22,7 @@ struct RunData {
   nlohmann::ordered_json settings;  ///< settings.toml, its tables as objects
   std::string settings_text;        ///< settings.toml as it stands
   SampleTable samples;              ///< samples.csv
-  std::string section_svg;  ///< drawing of the foot in the sand; empty on other ground
+  std::string section_svg;          ///< drawing of the foot in the sand; empty on other ground
   std::vector<RunFile> files;       ///< all files of the folder by name, but for report.html
 };
 

@@ -2,7 +2,7 @@
 
 #include <iostream>
 
-#include "firmware/protocol/dictionary.h"
+#include "firmware/app/received_ids.h"
 
 namespace hoof::firmware::board {
 namespace {
@@ -12,18 +12,26 @@ constexpr std::int64_t kFreeSleep_ns = 500'000;
 /// While time stands there is nothing to look at but the order to end.
 constexpr std::int64_t kStandingSleep_ns = 50'000'000;
 
+/// A leg is let down within two seconds of ticks; on a machine that does not come to a thousand
+/// ticks a second the program does not outlive its user for that.
+constexpr std::int64_t kLongestStop_ns = 3'000'000'000;
+
 std::unique_ptr<hal::SocketCanBus> open(const std::string& interface) {
   hal::SocketCanSettings settings;
   settings.interface = interface;
+  settings.batched = true;
   return std::make_unique<hal::SocketCanBus>(settings);
 }
 
+/// Of a frame on an interface that carries both buses: replies of the leg's drives are on bus 1,
+/// all else, frames of nobody among it, counts as of bus 0.
 bool is_on_bus0(const hal::CanFrame& frame) {
   if (frame.extended) return true;
-  for (const protocol::MessageSpec& message : protocol::kMessages) {
-    if (message.id == frame.id) return (message.buses & protocol::kBus0) != 0;
+  bool on[2] = {false, false};
+  for (const std::size_t bus : {0, 1}) {
+    app::for_each_received_id(bus, [&](std::uint32_t id) { on[bus] = on[bus] || id == frame.id; });
   }
-  return true;
+  return on[0] || !on[1];
 }
 
 bool drives_off(control::Mode mode) {
@@ -59,21 +67,49 @@ void LockStepFoot::run(const std::atomic<bool>& interrupted) {
       continue;
     }
     listen(kStandingSleep_ns);
-    if (wall_.now_ns() - heard_ns_ > patience_ns_) run_on("the simulator is silent");
+    mind_silence();
   }
+  if (!clock_.running()) send_now(hal::lock_step::end());
   clock_.run_on();
   loop_->request_stop();
+  const std::int64_t give_up_ns = wall_.now_ns() + kLongestStop_ns;
   do {
     free_step();
-  } while (!drives_off(loop_->mode()));
+  } while (!drives_off(loop_->mode()) && wall_.now_ns() < give_up_ns);
   for (const auto& bus : buses_) bus->allow(hal::lock_step::kMostFree, false);
   loop_->release_drives();
+  flush();
+}
+
+/// Asks for the time only where nothing was heard, as lock-step has thousands of turns a second.
+void LockStepFoot::mind_silence() {
+  if (heard_) {
+    heard_ = false;
+    silent_since_ns_.reset();
+  } else if (!silent_since_ns_) {
+    silent_since_ns_ = wall_.now_ns();
+  } else if (wall_.now_ns() - *silent_since_ns_ > patience_ns_) {
+    run_on("the simulator is silent");
+  }
+}
+
+/// Bus 1 first: what tells the simulator to look is on bus 0.
+void LockStepFoot::flush() {
+  if (socket1_) socket1_->flush();
+  socket0_->flush();
+}
+
+void LockStepFoot::send_now(const hal::CanFrame& frame) {
+  socket0_->send(frame);
+  flush();
 }
 
 void LockStepFoot::free_step() {
   for (const auto& bus : buses_) bus->allow(hal::lock_step::kMostFree, false);
   listen(kFreeSleep_ns);
-  if (clock_.running()) loop_->poll();
+  if (!clock_.running()) return;
+  loop_->poll();
+  flush();
 }
 
 void LockStepFoot::listen(std::int64_t longest_ns) {
@@ -96,7 +132,7 @@ void LockStepFoot::take(const hal::CanFrame& frame) {
     buses_[bus0 ? 0 : 1]->put(frame);
     return;
   }
-  heard_ns_ = wall_.now_ns();
+  heard_ = true;
   if (hal::lock_step::is_begin(frame)) {
     begin();
   } else if (hal::lock_step::is_end(frame)) {
@@ -132,7 +168,7 @@ void LockStepFoot::answer(std::int64_t time_ns) {
   if (wait_us < hal::lock_step::Done::kNever_us) {
     done.due_in_us = wait_us > 0 ? static_cast<std::uint32_t>(wait_us) : 0;
   }
-  socket0_->send(encode(done));
+  send_now(encode(done));
 }
 
 void LockStepFoot::run_on(const char* why) {

@@ -29,6 +29,10 @@ class LockStepFoot {
   void run(const std::atomic<bool>& interrupted);
 
   const app::ControlLoop& loop() const { return *loop_; }
+  /// Frames that the kernel lost on the way here.
+  std::uint64_t dropped() const {
+    return socket0_->status().dropped + (socket1_ ? socket1_->status().dropped : 0);
+  }
 
  private:
   void start_loop(const app::Parameters& parameters);
@@ -40,6 +44,9 @@ class LockStepFoot {
   void step(const hal::lock_step::Go& go);
   void run_on(const char* why);
   void answer(std::int64_t time_ns);
+  void mind_silence();
+  void flush();
+  void send_now(const hal::CanFrame& frame);
 
   hal::MonotonicClock wall_;
   std::int64_t patience_ns_;
@@ -50,7 +57,8 @@ class LockStepFoot {
   LockStepClock clock_;
   hal::SoftBoard board_;
   std::optional<app::ControlLoop> loop_;
-  std::int64_t heard_ns_ = 0;  // of the simulator, by the wall
+  bool heard_ = false;  // the simulator, since mind_silence() was called last
+  std::optional<std::int64_t> silent_since_ns_;  // by the wall
 };
 
 }  // namespace hoof::firmware::board

@@ -28,6 +28,10 @@ void on_signal(int) {
 /// Sleeps at most this long: also without frames the loop looks at its clock every millisecond.
 constexpr std::int64_t kLongestSleep_ns = 500'000;
 
+/// A leg is let down within two seconds of ticks; on a machine that does not come to a thousand
+/// ticks a second the program does not outlive its user for that.
+constexpr std::int64_t kLongestStop_ns = 3'000'000'000;
+
 /// As on the STM32F405: two sectors of parameters, one of faults, 16 KB each.
 constexpr std::size_t kFlashSectors = 3;
 constexpr std::size_t kFlashSectorWords = 4096;
@@ -38,13 +42,14 @@ bool drives_off(control::Mode mode) {
 }
 
 /// Runs until interrupted; then lets the leg down by damping and leaves with the drives off.
-void run(app::ControlLoop& loop, hoof::hal::SocketCanBus& bus0) {
+void run(app::ControlLoop& loop, hoof::hal::SocketCanBus& bus0, const hoof::hal::Clock& clock) {
   while (!interrupted) {
     bus0.wait(kLongestSleep_ns);
     loop.poll();
   }
   loop.request_stop();
-  while (!drives_off(loop.mode())) {
+  const std::int64_t give_up_ns = clock.now_ns() + kLongestStop_ns;
+  while (!drives_off(loop.mode()) && clock.now_ns() < give_up_ns) {
     bus0.wait(kLongestSleep_ns);
     loop.poll();
   }
@@ -56,15 +61,16 @@ void run(app::ControlLoop& loop, hoof::hal::SocketCanBus& bus0) {
 hoof::hal::SocketCanSettings connection(const std::string& interface, std::size_t bus_index) {
   hoof::hal::SocketCanSettings settings;
   settings.interface = interface;
+  settings.stamps = false;  // the loop goes by when it reads a frame
   app::for_each_received_id(bus_index, [&settings](std::uint32_t id) {
     settings.filters.push_back({.id = id, .mask = 0x7FF});
   });
   return settings;
 }
 
-void say_stopped(const app::ControlLoop& loop) {
+void say_stopped(const app::ControlLoop& loop, std::uint64_t lost_frames) {
   std::cerr << "hoof-firmware: stopped after " << loop.telemetry().counters.ticks
-            << " ticks, drives off\n";
+            << " ticks, drives off; " << lost_frames << " frames lost by the kernel\n";
 }
 
 int start(const board::Options& options) {
@@ -82,7 +88,7 @@ int start(const board::Options& options) {
   if (options.lock_step) {
     board::LockStepFoot foot(options, parameters, kept);
     foot.run(interrupted);
-    say_stopped(foot.loop());
+    say_stopped(foot.loop(), foot.dropped());
     return 0;
   }
   hoof::hal::SocketCanBus bus0(connection(options.bus0, 0));
@@ -90,8 +96,8 @@ int start(const board::Options& options) {
   const board::ScaledClock clock(options.slow_down);
   hoof::hal::SoftBoard board;
   app::ControlLoop loop({&bus0, &bus1}, clock, board, parameters, kept);
-  run(loop, bus0);
-  say_stopped(loop);
+  run(loop, bus0, clock);
+  say_stopped(loop, bus0.status().dropped + bus1.status().dropped);
   return 0;
 }
 

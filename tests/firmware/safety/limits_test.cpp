@@ -25,6 +25,7 @@ void check(const JointLimits& limits, const JointLimits& expected) {
   CHECK(limits.end_of_range_rad == expected.end_of_range_rad);
   CHECK(limits.drift_rad == expected.drift_rad);
   CHECK(limits.following_Nm == expected.following_Nm);
+  CHECK(limits.stuck_Nm == expected.stuck_Nm);
   CHECK(limits.stop_kd_Nm_s_rad == expected.stop_kd_Nm_s_rad);
 }
 
@@ -39,9 +40,9 @@ void check(const DriveData& drive, const DriveData& expected) {
 }  // namespace
 
 TEST_CASE("The ceilings are those that were decided") {
-  check(kLimits[0], {10, 3000, 24, 0.125f, -0.1f, 1, 10, 500, 5, 45, 12.49f, 0.03f, 2.5f, 2.4f});
-  const JointLimits hip{317,   100e3f, 400, 0.1f,  -1.2f, 1.6f, 5,
-                        20e3f, 500,    20,  3.19f, 0.02f, 80,   200};
+  check(kLimits[0], {10, 3000, 24, 0.125f, -0.1f, 1, 10, 500, 5, 45, 12.49f, 0.03f, 2.5f, 4, 2.4f});
+  const JointLimits hip{317, 100e3f, 400,   0.1f,  -1.2f, 1.6f, 5,  20e3f,
+                        500, 20,     3.19f, 0.02f, 80,    30,   200};
   check(kLimits[1], hip);
   JointLimits knee = hip;
   knee.lower_rad = -2.7f;
@@ -54,6 +55,8 @@ TEST_CASE("The ceilings are those that were decided") {
   CHECK(kDriftMemory_s == 0.1f);
   CHECK(kLongestGap_ticks == 20);
   CHECK(kNotFollowingTicks == 100);
+  CHECK(kStuckReplies == 10);
+  CHECK(kSettlingReplies == 4);
   CHECK(kFreshness_ns == 20'000'000);
   CHECK(kLowestSupply_V == 36.0f);
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <random>
 
+#include "tests/firmware/safety/replies.h"
+
 using namespace hoof::firmware;
 using namespace hoof::firmware::safety;
 using control::DriveAction;
@@ -11,46 +13,6 @@ using control::FaultBits;
 using control::JointState;
 using control::JointWish;
 namespace fault = control::fault;
-
-namespace {
-
-constexpr std::int64_t kMillisecond_ns = 1'000'000;
-
-/// One joint's replies, a millisecond apart unless said otherwise.
-struct Replies {
-  std::size_t joint = 1;
-  ReplyWatch watch;
-  JointState state;
-  JointWish passed;
-  std::int64_t now_ns = 7'000 * kMillisecond_ns;
-
-  explicit Replies(std::size_t which) : joint(which) {
-    state.received = state.referenced = true;
-    place(joint == 2 ? -1.0f : 0.0f);
-    watch.start(now_ns);
-    for (int i = 0; i < 3; ++i) REQUIRE(next() == 0);
-  }
-
-  void place(float position_rad) { state.position_rad = state.reading_rad = position_rad; }
-
-  FaultBits look(std::uint32_t ticks = 1) {
-    return watch.inspect(kLimits[joint], kDrives[joint], state, passed, now_ns, ticks);
-  }
-
-  FaultBits next(std::uint32_t ticks = 1, std::int64_t elapsed_ns = kMillisecond_ns) {
-    now_ns += elapsed_ns;
-    state.received_ns = now_ns;
-    return look(ticks);
-  }
-
-  FaultBits next_at(float reading_rad, float velocity_rad_s) {
-    state.reading_rad = reading_rad;
-    state.velocity_rad_s = velocity_rad_s;
-    return next();
-  }
-};
-
-}  // namespace
 
 TEST_CASE("Just inside its bounds a reply passes, just beyond it does not") {
   for (std::size_t joint = 0; joint < 3; ++joint) {
@@ -382,6 +344,7 @@ TEST_CASE("The torque may be away from what was asked by its bound, on both side
     for (const float side : {1.0f, -1.0f}) {
       for (const bool beyond : {false, true}) {
         Replies r(joint);
+        r.gives_way = true;
         const float off_Nm = beyond ? std::nextafter(bound_Nm, 1e9f) : bound_Nm;
         r.passed = {DriveAction::kCommand, {.torque_Nm = 0.0f}};
         r.state.torque_Nm = side * off_Nm;
@@ -417,6 +380,7 @@ TEST_CASE("What is asked is the law of the passed command at the reported state"
 
 TEST_CASE("Moments of lag do not add up, a drive that is off more often than not is found") {
   Replies r(1);
+  r.gives_way = true;
   r.passed = {DriveAction::kCommand, {.torque_Nm = 200.0f}};
   for (int i = 0; i < 5000; ++i) {
     r.state.torque_Nm = i % 2 == 0 ? 0.0f : 200.0f;
@@ -436,6 +400,7 @@ TEST_CASE("A drive cannot be asked for more than it has, nor be blamed for not g
   for (const float side : {1.0f, -1.0f}) {
     for (const std::size_t joint : {std::size_t{0}, std::size_t{1}}) {
       Replies r(joint);
+      r.gives_way = true;
       const float peak_Nm = kDrives[joint].peak_torque_Nm;
       r.passed = {DriveAction::kCommand, {.torque_Nm = side * 3.0f * peak_Nm}};
       r.state.torque_Nm = side * peak_Nm;
@@ -450,6 +415,7 @@ TEST_CASE("A drive cannot be asked for more than it has, nor be blamed for not g
 TEST_CASE("Enter and exit ask for no torque, and end what was counted") {
   for (const DriveAction action : {DriveAction::kEnter, DriveAction::kExit}) {
     Replies r(1);
+    r.gives_way = true;
     r.state.torque_Nm = 200.0f;
     r.passed = {action, {}};
     for (int i = 0; i < 300; ++i) REQUIRE(r.next() == 0);

@@ -178,6 +178,26 @@ TEST_CASE("bxCAN: random sending keeps priority and order, and loses nothing") {
   CHECK(rig.can.faults.empty());
 }
 
+TEST_CASE("bxCAN withdraws what waits under one identifier, and nothing else") {
+  Rig rig;
+  rig.join();
+  REQUIRE(rig.bus.send(data_frame(0x022, {1})) == SendResult::kQueued);
+  REQUIRE(rig.bus.send(data_frame(0x023, {2})) == SendResult::kQueued);
+  CanFrame other = data_frame(0x022, {3});
+  other.extended = true;
+  REQUIRE(rig.bus.send(other) == SendResult::kQueued);
+  rig.bus.withdraw(0x7FF);
+  CHECK(rig.bus.send(data_frame(0x022)) == SendResult::kFull);
+  rig.bus.withdraw(0x022);
+  REQUIRE(rig.bus.send(data_frame(0x022, {4})) == SendResult::kQueued);
+  CHECK(rig.can.transmit()->low == 3);  // extended: its first eleven bits are 0
+  CHECK(rig.can.transmit()->low == 4);
+  CHECK(rig.can.transmit()->low == 2);
+  CHECK_FALSE(rig.can.transmit());
+  rig.bus.withdraw(0x022);  // nothing is left of it
+  CHECK(rig.bus.send(data_frame(0x022)) == SendResult::kQueued);
+}
+
 TEST_CASE("bxCAN counts what was acknowledged as sent, not what was aborted") {
   Rig rig;
   rig.join();

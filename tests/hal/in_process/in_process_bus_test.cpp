@@ -152,6 +152,31 @@ TEST_CASE("three mailboxes: lowest field first, equal ones in order, then full",
   CHECK(port.pending() == 0);
 }
 
+TEST_CASE("what waits under one identifier can be withdrawn, what is on the wire cannot",
+          "[in_process]") {
+  Wire wire;
+  InProcessBus bus({}, wire.observer());
+  InProcessPort& port = bus.attach("port");
+  auto extended = frame(0x022, {9});
+  extended.extended = true;
+  REQUIRE(port.send(frame(0x022, {1})) == SendResult::kQueued);
+  REQUIRE(port.send(frame(0x023, {2})) == SendResult::kQueued);
+  REQUIRE(port.send(extended) == SendResult::kQueued);
+  port.withdraw(0x022);
+  CHECK(port.pending() == 2);
+  REQUIRE(port.send(frame(0x022, {3})) == SendResult::kQueued);
+  bus.advance_to(bus.next_event_ns());   // the extended one: its first eleven bits are 0
+  bus.advance_to(bus.now_ns() + 3'001);  // behind the intermission
+  port.withdraw(0x022);                  // too late: it is on the wire
+  port.withdraw(0x7FF);
+  CHECK(port.pending() == 2);
+  bus.advance_to(1'000'000);
+  CHECK(wire.ids() == Ids{0x022, 0x022, 0x023});
+  CHECK(wire.entries[0].frame.data[0] == 9);
+  CHECK(wire.entries[1].frame.data[0] == 3);
+  CHECK(bus.idle());
+}
+
 TEST_CASE("a node that never stops starves lower priorities and is starved by none",
           "[in_process]") {
   Wire wire;

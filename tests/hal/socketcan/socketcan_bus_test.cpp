@@ -229,6 +229,71 @@ TEST_CASE("the default buffer holds a second of a fully loaded bus half asleep",
   CHECK(sleeper.status().dropped == 0);
 }
 
+TEST_CASE("a batched bus keeps frames until it is told, and loses no order", "[socketcan]") {
+  SocketCanSettings batched = vcan();
+  batched.batched = true;
+  SocketCanBus a(batched), b(batched), plain(vcan());
+  CanFrame got;
+  for (std::uint32_t id : {1u, 2u, 3u}) CHECK(a.send(frame(id, {9})) == SendResult::kQueued);
+  CHECK_FALSE(plain.wait(20'000'000));
+  CHECK(a.flush() == SendResult::kQueued);
+  // Both kinds of wait: the socket's own coarse time-out, and the fine one of poll().
+  const std::int64_t timeout_ns = GENERATE(kPatience_ns, std::int64_t{5'000'000});
+  REQUIRE(b.wait(timeout_ns));
+  for (std::uint32_t id : {1u, 2u, 3u}) {
+    REQUIRE(b.receive(got));
+    CHECK(got == frame(id, {9}));
+    CHECK(got.stamp_ns == 0);
+  }
+  CHECK_FALSE(b.receive(got));
+  CHECK_FALSE(b.receive(got));
+  CHECK_FALSE(b.wait(25'000'000));
+
+  // wait() gives up what was kept, as an answer to it is what is waited for.
+  a.send(frame(4));
+  CHECK_FALSE(a.wait(1'000'000));
+  REQUIRE(b.wait(timeout_ns));
+  REQUIRE(b.receive(got));
+  CHECK(got.id == 4);
+
+  // More than a batch, either way.
+  constexpr std::uint32_t kMany = 100;
+  for (std::uint32_t id = 0; id < kMany; ++id) {
+    REQUIRE(a.send(frame(id)) == SendResult::kQueued);
+  }
+  a.flush();
+  std::uint32_t next = 0;
+  while (next < kMany && b.wait(timeout_ns)) {
+    while (b.receive(got)) CHECK(got.id == next++);
+  }
+  CHECK(next == kMany);
+  CHECK(b.status().received == 4 + kMany);
+  CHECK(b.status().dropped == 0);
+}
+
+TEST_CASE("a batched bus counts losses as a plain one", "[socketcan]") {
+  SocketCanSettings settings = vcan();
+  settings.batched = true;
+  SocketCanBus sender(settings);
+  settings.receive_buffer_bytes = 16 * 1024;
+  SocketCanBus sleeper(settings);
+  constexpr std::uint64_t kFrames = 2'000;
+  for (std::uint64_t i = 0; i < kFrames; ++i) sender.send(frame(0x55));
+  sender.flush();
+  std::uint64_t count = 0;
+  CanFrame got;
+  while (sleeper.wait(0)) {
+    while (sleeper.receive(got)) ++count;
+  }
+  CHECK(count < kFrames);
+  sender.send(frame(0x56));
+  sender.flush();
+  REQUIRE(sleeper.wait(kPatience_ns));
+  while (sleeper.receive(got)) ++count;
+  CHECK(got.id == 0x56);
+  CHECK(sleeper.status().dropped == kFrames + 1 - count);
+}
+
 TEST_CASE("waiting ends with a frame or with the time", "[socketcan]") {
   const MonotonicClock clock;
   SocketCanBus a(vcan());

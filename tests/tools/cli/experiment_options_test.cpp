@@ -78,7 +78,7 @@ TEST_CASE("impossible values are refused, naming flag and bound") {
       {{"--foot", "bear"}, "--foot: 'bear' is none of bionic, bionic-plain, traditional"},
       {{"--foot", "missing.stl"}, "--foot: 'missing.stl' is none of"},
       {{"--bed", "bigger"}, "--bed: 'bigger' is none of demo, bench, paper"},
-      {{"--terrain", "mud"}, "--terrain: 'mud' is none of dem, rigid"},
+      {{"--terrain", "mud"}, "--terrain: 'mud' is none of dem, rft, rigid"},
       {{"--threads", "0"}, "--threads: Value 0 not in range"},
       {{"--seed", "-1"}, "--seed"},
       {{"--set", "seed"}, "--set: 'seed' is not of the form key=value"},

@@ -25,6 +25,7 @@ struct TestWire final : CanWire {
     sent.push_back(frame);
     return true;
   }
+  bool withdraw(const hal::CanFrame&) override { return false; }
   bool take(hal::CanFrame& frame) override {
     if (coming.empty()) return false;
     frame = coming.front();

@@ -91,7 +91,8 @@ TEST_CASE("a reply on the other bus, error frames and unknown ones are told apar
   r.frames.push_back({r.last_ns(), 1, unknown});
   const LogStatistics s = measure(r);
   CHECK(s.buses[1].error_frames == 1);
-  CHECK_THAT(all(s.findings), Catch::Contains("ToeReply: on the wrong bus"));
+  CHECK_THAT(all(s.findings), Catch::Contains("ToeReply: on the wrong bus") &&
+                                  Catch::Contains("the first error frame on this bus"));
   std::ostringstream out;
   print_info(r, out);
   CHECK_THAT(out.str(), Catch::Contains("(unknown)") && Catch::Contains("(error frame)"));

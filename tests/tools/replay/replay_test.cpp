@@ -7,6 +7,7 @@
 #include <random>
 
 #include "hil_bridge/bus_log.h"
+#include "hil_bridge/fault_targets.h"
 #include "tests/hil_bridge/rigid_bench.h"
 #include "tests/tools/run/scratch_folder.h"
 #include "tools/log/decoded_frame.h"
@@ -209,7 +210,10 @@ TEST_CASE("recording.json keeps every parameter to the bit and names what it doe
   CHECK(read.exchange_ns == 50'000);
   CHECK(read.protocol_hash == facts.protocol_hash);
   CHECK(read.notes.empty());
+  CHECK(read.unseen_faults.empty());
   CHECK(to_json(read) == to_json(odd));
+  odd.unseen_faults = {"fault.0 (estop line)"};
+  CHECK(bridge::parse_recording_facts(to_json(odd), "r.json").unseen_faults == odd.unseen_faults);
 
   std::string renamed = to_json(facts);
   const std::string name(hoof::firmware::app::parameter_table()[0].name);
@@ -223,6 +227,28 @@ TEST_CASE("recording.json keeps every parameter to the bit and names what it doe
   CHECK_THROWS_WITH(refused("{"), Catch::StartsWith("r.json: "));
   CHECK_THROWS_WITH(refused("{\"format\": 2}"), Catch::Contains("reads 1 to 1"));
   CHECK_THROWS_WITH(refused("{\"format\": 1}"), Catch::Contains("no 'wires'"));
+}
+
+TEST_CASE("faults that reach the firmware by ways that the bus does not show are known as such") {
+  using bridge::FaultKind;
+  const auto unseen = [](FaultKind kind, const char* target) {
+    bridge::FaultSpec fault;
+    fault.kind = kind;
+    fault.target = target;
+    return bridge::unseen_by_bus(fault, bridge::find_target(fault, {true, true, true}));
+  };
+  CHECK(unseen(FaultKind::kBrownOut, "foot"));
+  CHECK(unseen(FaultKind::kEstop, "line"));
+  CHECK(unseen(FaultKind::kNodeRestart, "foot"));
+  CHECK(unseen(FaultKind::kBusOff, "foot"));
+  CHECK(unseen(FaultKind::kCorrupt, "HipCommand"));
+  CHECK(unseen(FaultKind::kDelay, "can1"));
+  CHECK_FALSE(unseen(FaultKind::kEstop, "can0"));
+  CHECK_FALSE(unseen(FaultKind::kNodeRestart, "hip"));
+  CHECK_FALSE(unseen(FaultKind::kDrop, "HipReply"));
+  CHECK_FALSE(unseen(FaultKind::kNodeSilent, "sync"));
+  CHECK_FALSE(unseen(FaultKind::kEncoderJump, "knee"));
+  CHECK_FALSE(unseen(FaultKind::kFlood, "can0"));
 }
 
 TEST_CASE("old recordings still replay, to the hash that is kept with them") {

@@ -1,86 +1,19 @@
 // hoof-firmware and hoof-bridge over a real vcan0, as a user starts them. Runs where vcan0 is: see
 // tests/hal/socketcan/run_where_vcan_is.sh.
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <chrono>
 #include <cstdlib>
-#include <fstream>
+#include <iostream>
 #include <lcm/lcm-cpp.hpp>
-#include <nlohmann/json.hpp>
 #include <random>
 #include <regex>
-#include <thread>
 
-#include "firmware/protocol/codec.h"
-#include "hal/monotonic_clock.h"
-#include "hal/socketcan/socketcan_bus.h"
-#include "hil_bridge/candump.h"
-#include "tests/tools/experiment/program.h"
+#include "firmware/protocol/protocol_hash.h"
+#include "hil_bridge/remote_line.h"
+#include "tests/tools/two_processes/on_vcan.h"
 
 using namespace hoof;
-using namespace std::chrono_literals;
-namespace fs = std::filesystem;
-namespace protocol = firmware::protocol;
-using tests::Outcome;
-using tests::Program;
+using namespace hoof::tests;
 
 namespace {
-
-using Arguments = std::vector<std::string>;
-
-/// On a hard floor and let down fast: a third of a second of simulated time.
-Arguments short_run(const std::string& kind, const fs::path& out, const Arguments& more) {
-  Arguments all = {kind, "--terrain", "rigid", "--quiet", "--out", out.string()};
-  if (kind == "sinkage") {
-    for (const char* setting : {"experiment.start_height_mm=12", "experiment.toe_deg=5"}) {
-      all.insert(all.end(), {"--set", setting});
-    }
-  }
-  all.insert(all.end(), more.begin(), more.end());
-  return all;
-}
-
-const Arguments kOnVcan = {"--bus", "vcan0"};
-
-/// Processes of that name whose parent is `parent`; 0 for any parent.
-std::vector<pid_t> processes(const std::string& name, pid_t parent) {
-  std::vector<pid_t> found;
-  for (const auto& entry : fs::directory_iterator("/proc")) {
-    const std::string id = entry.path().filename().string();
-    if (!std::all_of(id.begin(), id.end(), [](char c) { return c >= '0' && c <= '9'; })) continue;
-    std::ifstream stat(entry.path() / "stat");
-    std::string number, command, state;
-    pid_t its_parent = 0;
-    stat >> number >> command >> state >> its_parent;
-    if (command != "(" + name + ")" || state == "Z") continue;
-    if (parent == 0 || its_parent == parent) found.push_back(pid_t(std::stol(id)));
-  }
-  return found;
-}
-
-void require_nothing_left() {
-  CHECK(processes("hoof-firmware", 0).empty());
-  CHECK(processes("hoof-bridge", 0).empty());
-}
-
-pid_t wait_for_process(const std::string& name, pid_t parent) {
-  for (int i = 0; i < 2'000; ++i) {
-    const auto found = processes(name, parent);
-    if (!found.empty()) return found.front();
-    std::this_thread::sleep_for(5ms);
-  }
-  FAIL(name << " was not started");
-  return 0;
-}
-
-std::vector<bridge::CandumpRecord> read_bus_log(const fs::path& file) {
-  std::ifstream input(file);
-  REQUIRE(input);
-  bridge::CandumpReader reader(input, file.string());
-  std::vector<bridge::CandumpRecord> records;
-  while (auto record = reader.next()) records.push_back(*record);
-  return records;
-}
 
 /// Whole events of an LCM log that may end anywhere.
 int lcm_events(const fs::path& file) {
@@ -101,26 +34,6 @@ fs::path abandoned_folder(const fs::path& parent) {
   return {};
 }
 
-nlohmann::json result_of(const fs::path& run) {
-  return nlohmann::json::parse(tools::read_file(run / "result.json"));
-}
-
-/// Sleeps until SYNC of that tick is on the interface.
-/// @return false where it does not come within 30 s
-bool wait_for_tick(hal::SocketCanBus& listener, std::uint32_t tick) {
-  const hal::MonotonicClock clock;
-  const std::int64_t give_up_ns = clock.now_ns() + 30'000'000'000;
-  hal::CanFrame frame;
-  protocol::Sync sync;
-  while (clock.now_ns() < give_up_ns) {
-    listener.wait(1'000'000);
-    while (listener.receive(frame)) {
-      if (decode(frame, sync) == protocol::DecodeResult::kOk && sync.tick >= tick) return true;
-    }
-  }
-  return false;
-}
-
 /// Shorter than the shortest run here, so that what is killed there is killed in the run.
 constexpr std::uint32_t kTicksOfARun = 300;
 
@@ -133,11 +46,11 @@ int repetitions() {
 TEST_CASE("lock-step over vcan0 writes the bus.log of the run in one process, byte for byte") {
   const auto kind = GENERATE(as<std::string>{}, "sinkage", "traction");
   CAPTURE(kind);
-  const tests::ScratchFolder scratch;
+  const ScratchFolder scratch;
   const fs::path here = scratch.path() / "here", there = scratch.path() / "there";
-  const Outcome one = tests::run_program(short_run(kind, here, {}));
+  const Outcome one = run_program(short_run(kind, here, {}));
   REQUIRE(one.status == 0);
-  const Outcome two = tests::run_program(short_run(kind, there, kOnVcan));
+  const Outcome two = run_program(short_run(kind, there, kOnVcan));
   CAPTURE(two.errors, two.output);
   REQUIRE(two.status == 0);
   const std::string log = tools::read_file(here / "bus.log");
@@ -158,7 +71,7 @@ TEST_CASE("a firmware killed at a random tick: named, recorded, and the drives w
       "hoof-firmware on vcan0 did not answer SYNC ([0-9]+) within 300 ms; the drives were without "
       "torque ([0-9]+) ms after it");
   for (int i = 0; i < repetitions(); ++i) {
-    const tests::ScratchFolder scratch;
+    const ScratchFolder scratch;
     Arguments more = kOnVcan;
     more.insert(more.end(), {"--patience", "0.3"});
     const Program program(short_run("sinkage", scratch.path() / "run", more));
@@ -189,13 +102,27 @@ TEST_CASE("a firmware killed at a random tick: named, recorded, and the drives w
   }
 }
 
+TEST_CASE("a firmware that is told to end says so: nobody waits for it") {
+  const ScratchFolder scratch;
+  const Program program(short_run("traction", scratch.path() / "run", kOnVcan));
+  hal::SocketCanBus listener(hal::SocketCanSettings{});
+  const pid_t firmware = wait_for_process("hoof-firmware", program.id());
+  REQUIRE(wait_for_tick(listener, 100));
+  kill(firmware, SIGTERM);
+  const Outcome outcome = program.wait();
+  CAPTURE(outcome.errors);
+  CHECK(outcome.status == 3);
+  CHECK(outcome.errors.find("ended before it answered SYNC") != std::string::npos);
+  require_nothing_left();
+}
+
 TEST_CASE("a bridge killed at a random tick leaves a readable recording and no process") {
   std::random_device device;
   const unsigned seed = device();
   CAPTURE(seed);
   std::mt19937 random(seed);
   for (int i = 0; i < repetitions(); ++i) {
-    const tests::ScratchFolder scratch;
+    const ScratchFolder scratch;
     const fs::path out = scratch.path() / "run";
     const Program program(short_run("sinkage", out, kOnVcan));
     hal::SocketCanBus listener(hal::SocketCanSettings{});
@@ -220,12 +147,12 @@ TEST_CASE("a bridge killed at a random tick leaves a readable recording and no p
     CHECK(last >= std::int64_t(tick) - 12);  // all but its last 10 ms, as bus_log.h promises
     CHECK(lcm_events(left / "telemetry.lcm") >= int(tick) - 12);
     // Nothing is in the way of the next run.
-    if (i == 0) CHECK(tests::run_program(short_run("sinkage", out, kOnVcan)).status == 0);
+    if (i == 0) CHECK(run_program(short_run("sinkage", out, kOnVcan)).status == 0);
   }
 }
 
 TEST_CASE("Ctrl-C ends both in order and keeps what exists") {
-  const tests::ScratchFolder scratch;
+  const ScratchFolder scratch;
   const Program program(short_run("traction", scratch.path() / "run", kOnVcan));
   hal::SocketCanBus listener(hal::SocketCanSettings{});
   REQUIRE(wait_for_tick(listener, 100));
@@ -237,23 +164,32 @@ TEST_CASE("Ctrl-C ends both in order and keeps what exists") {
   require_nothing_left();
 }
 
-TEST_CASE("hoof killed with -9 takes both with it") {
-  const tests::ScratchFolder scratch;
-  const Program program(short_run("traction", scratch.path() / "run", kOnVcan));
-  hal::SocketCanBus listener(hal::SocketCanSettings{});
-  REQUIRE(wait_for_tick(listener, 100));
-  program.send(SIGKILL);
-  program.wait();
-  for (int i = 0;
-       i < 400 && !(processes("hoof-firmware", 0).empty() && processes("hoof-bridge", 0).empty());
-       ++i) {
-    std::this_thread::sleep_for(20ms);
+TEST_CASE("hoof killed with -9 takes both with it, whenever that is") {
+  std::mt19937 random(std::random_device{}());
+  for (int i = 0; i < repetitions(); ++i) {
+    const ScratchFolder scratch;
+    const Program program(short_run("traction", scratch.path() / "run", kOnVcan));
+    hal::SocketCanBus listener(hal::SocketCanSettings{});
+    if (i % 2 == 0) {
+      REQUIRE(wait_for_tick(listener, random() % 200));
+    } else {  // or while it starts them: at first it listens whether somebody is there already
+      std::this_thread::sleep_for(std::chrono::milliseconds(200 + random() % 300));
+    }
+    program.send(SIGKILL);
+    program.wait();
+    const auto any = [] {
+      return !processes("hoof-firmware", 0).empty() || !processes("hoof-bridge", 0).empty();
+    };
+    const hal::MonotonicClock clock;
+    const std::int64_t killed_ns = clock.now_ns();
+    while (any() && clock.now_ns() - killed_ns < 10'000'000'000) std::this_thread::sleep_for(20ms);
+    CAPTURE(i);
+    require_nothing_left();
   }
-  require_nothing_left();
 }
 
 TEST_CASE("a stranger's e-stop on the interface stops the foot and is in the recording") {
-  const tests::ScratchFolder scratch;
+  const ScratchFolder scratch;
   const Program program(short_run("traction", scratch.path() / "run", kOnVcan));
   hal::SocketCanBus button(hal::SocketCanSettings{});
   REQUIRE(wait_for_tick(button, 100));
@@ -270,53 +206,115 @@ TEST_CASE("a stranger's e-stop on the interface stops the foot and is in the rec
   require_nothing_left();
 }
 
+namespace {
+
+/// Share of the ticks that a run in real time says it had to leave out.
+double missed_ratio(const std::string& text) {
+  std::smatch found;
+  REQUIRE(std::regex_search(text, found,
+                            std::regex("real time: ([0-9]+) ticks, .* ([0-9]+) ticks missed")));
+  return std::stod(found[2]) / std::stod(found[1]);
+}
+
+/// A machine that leaves out one tick in fifty is asked for more than it has; a foot whose SYNC
+/// comes late or whose own tick is interrupted for longer than a millisecond must stop then.
+constexpr double kTooBusy = 0.02;
+
+}  // namespace
+
 TEST_CASE("real time: the run comes to its end and tells how well its deadlines were kept") {
-  const tests::ScratchFolder scratch;
-  const fs::path out = scratch.path() / "run";
+  const ScratchFolder scratch;
+  const hal::MonotonicClock clock;
   Arguments more = kOnVcan;
   more.insert(more.end(), {"--clock", "real-time"});
-  const hal::MonotonicClock clock;
-  const std::int64_t start_ns = clock.now_ns();
-  const Outcome outcome = tests::run_program(short_run("sinkage", out, more));
-  const double wall_s = double(clock.now_ns() - start_ns) * 1e-9;
-  CAPTURE(outcome.errors, outcome.output);
-  REQUIRE(outcome.status == 0);
-  const nlohmann::json result = result_of(out);
-  const nlohmann::json& real_time = result["bus"]["real_time"];
-  CHECK(result["bus"]["clock"] == "real-time");
-  const double ticks = real_time["ticks"];
-  CHECK(ticks * 1e-3 <= wall_s);  // by the wall's clock, not faster
-  std::uint64_t counted = 0;
-  for (const auto& bin : real_time["wake_latency"]["histogram"]) {
-    counted += bin["count"].get<std::uint64_t>();
+  for (int attempt = 1; attempt <= 3; ++attempt) {
+    const fs::path out = scratch.path() / ("run" + std::to_string(attempt));
+    const std::int64_t start_ns = clock.now_ns();
+    const Outcome outcome = run_program(short_run("sinkage", out, more));
+    const double wall_s = double(clock.now_ns() - start_ns) * 1e-9;
+    require_nothing_left();
+    CAPTURE(attempt, outcome.errors, outcome.output);
+    for (const char* word : {"overruns", "wake latency: p50", "p99", "max", "wake jitter"}) {
+      CHECK((outcome.output + outcome.errors).find(word) != std::string::npos);
+    }
+    if (outcome.status == 3) {
+      // Only a machine that does not keep up is an excuse, and the run must have said so.
+      REQUIRE(missed_ratio(outcome.errors) > kTooBusy);
+      WARN("attempt " << attempt << ": this machine is too busy for real time: " << outcome.errors);
+      continue;
+    }
+    REQUIRE(outcome.status == 0);
+    const nlohmann::json result = result_of(out);
+    const nlohmann::json& real_time = result["bus"]["real_time"];
+    CHECK(result["bus"]["clock"] == "real-time");
+    const double ticks = real_time["ticks"];
+    CHECK(ticks * 1e-3 <= wall_s);  // by the wall's clock, not faster
+    std::uint64_t counted = 0;
+    for (const auto& bin : real_time["wake_latency"]["histogram"]) {
+      counted += bin["count"].get<std::uint64_t>();
+    }
+    CHECK(double(counted) == ticks - real_time["ticks_missed"].get<double>());
+    std::cout << outcome.output;
+    return;
   }
-  CHECK(double(counted) == ticks - real_time["ticks_missed"].get<double>());
-  for (const char* word : {"overruns", "wake latency: p50", "p99", "max", "wake jitter"}) {
-    CHECK(outcome.output.find(word) != std::string::npos);
-  }
-  require_nothing_left();
 }
 
 TEST_CASE("what cannot be done is said in one line") {
-  const tests::ScratchFolder scratch;
+  const ScratchFolder scratch;
   const std::string out = (scratch.path() / "run").string();
   SECTION("grains in real time") {
     const Outcome outcome =
-        tests::run_program({"sinkage", "--bus", "vcan0", "--clock", "real-time", "--out", out});
+        run_program({"sinkage", "--bus", "vcan0", "--clock", "real-time", "--out", out});
     CHECK(outcome.status == 2);
-    CHECK(outcome.errors.find("add --terrain rigid") != std::string::npos);
+    CHECK(outcome.errors.find("--terrain rigid") != std::string::npos);
   }
   SECTION("real time without a bus") {
     const Outcome outcome =
-        tests::run_program({"sinkage", "--clock", "real-time", "--terrain", "rigid", "--out", out});
+        run_program({"sinkage", "--clock", "real-time", "--terrain", "rigid", "--out", out});
     CHECK(outcome.status == 2);
     CHECK(outcome.errors.find("--bus vcan0") != std::string::npos);
   }
   SECTION("an interface that is not there") {
     const Outcome outcome =
-        tests::run_program({"sinkage", "--bus", "nocan7", "--terrain", "rigid", "--out", out});
+        run_program({"sinkage", "--bus", "nocan7", "--terrain", "rigid", "--out", out});
     CHECK(outcome.status == 3);
     CHECK(outcome.errors.find("nocan7") != std::string::npos);
+  }
+  SECTION("a foot that speaks another dictionary") {
+    bridge::RemoteLine line("vcan0");
+    hal::SocketCanBus foot(hal::SocketCanSettings{});
+    foot.send(
+        encode(protocol::Heartbeat{protocol::Mode::kOff, 1, 0, protocol::kHeartbeatHash ^ 1}));
+    CHECK_THROWS_WITH(line.await_heartbeat(2'000'000'000),
+                      Catch::Matchers::Contains("another dictionary") &&
+                          Catch::Matchers::Contains("protocol hash"));
+  }
+  SECTION("a foot is there already, and then a second one") {
+    const auto firmware = [] {
+      const pid_t child = fork();
+      if (child == 0) {
+        execl(HOOF_FIRMWARE, "hoof-firmware", "--bus", "vcan0", "--clock", "lock-step",
+              static_cast<char*>(nullptr));
+        _exit(127);
+      }
+      return child;
+    };
+    const pid_t first = firmware();
+    hal::SocketCanBus ear(hal::SocketCanSettings{});
+    ear.wait(5'000'000'000);
+    const Outcome outcome =
+        run_program({"sinkage", "--bus", "vcan0", "--terrain", "rigid", "--out", out});
+    CHECK(outcome.status == 2);
+    CHECK(outcome.errors.find("a foot is on this bus already") != std::string::npos);
+    const pid_t second = firmware();
+    std::this_thread::sleep_for(300ms);
+    bridge::RemoteLine line("vcan0");
+    CHECK_THROWS_WITH(line.await_heartbeat(2'000'000'000),
+                      Catch::Matchers::Contains("more than one foot"));
+    for (const pid_t child : {first, second}) {
+      kill(child, SIGTERM);
+      waitpid(child, nullptr, 0);
+    }
   }
   CHECK_FALSE(fs::exists(out));
   require_nothing_left();

@@ -1,7 +1,7 @@
 "use strict";
 // Draws the plots of report.html from the JSON in the element "samples":
 // { time_s: [...], plots: [{ axis, unit, span_gaps, series: [{ label, values, step, band }] }],
-//   phases: [{ time_s, name }] }. Values are in the unit of their plot; null means no value, which
+//   phases: [{ time_s, name }], marks: the same, of faults, or left out }. Values are in the unit of their plot; null means no value, which
 // a line passes over where span_gaps is set. A step holds its value; a band is thin and dashed.
 // A plot may have a time_s of its own.
 (() => {
@@ -15,27 +15,41 @@
   const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
   const shown = (value) => (value === null || value === undefined ? "" : String(+value.toPrecision(4)));
 
-  // A dashed line where a phase begins, its name beside it.
-  function drawPhases(plot) {
+  // A line where each begins, its name beside it; those that are close stand below one another.
+  function drawTimes(plot, times, look) {
     const { ctx, bbox } = plot;
+    const line_px = 13 * devicePixelRatio;
+    let last = -Infinity, row = 0;
     ctx.save();
     ctx.beginPath();
     ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
     ctx.clip();
-    ctx.strokeStyle = ctx.fillStyle = colour("--faint");
+    ctx.strokeStyle = ctx.fillStyle = look.colour;
     ctx.font = `${11 * devicePixelRatio}px system-ui, sans-serif`;
-    ctx.setLineDash([4 * devicePixelRatio, 4 * devicePixelRatio]);
+    ctx.setLineDash(look.dash.map((length) => length * devicePixelRatio));
     ctx.textBaseline = "top";
-    ctx.textAlign = "left";
-    for (const phase of samples.phases) {
-      const x = plot.valToPos(phase.time_s, "x", true);
+    for (const time of times) {
+      const x = plot.valToPos(time.time_s, "x", true);
+      row = look.stacked && x - last < 12 * line_px ? row + 1 : 0;
+      last = x;
       ctx.beginPath();
       ctx.moveTo(x, bbox.top);
       ctx.lineTo(x, bbox.top + bbox.height);
       ctx.stroke();
-      ctx.fillText(phase.name, x + 4 * devicePixelRatio, bbox.top + 3 * devicePixelRatio);
+      const y = bbox.top + 3 * devicePixelRatio + (look.rows_down + row) * line_px;
+      const left = look.stacked && x > bbox.left + 0.75 * bbox.width;  // it would run out
+      ctx.textAlign = left ? "right" : "left";
+      ctx.fillText(time.name, x + (left ? -4 : 4) * devicePixelRatio, y);
     }
     ctx.restore();
+  }
+
+  function drawAllTimes(plot) {
+    const faint = { colour: colour("--faint"), dash: [4, 4], stacked: false, rows_down: 0 };
+    drawTimes(plot, samples.phases, faint);
+    const warn = { colour: colour("--warn-ink"), dash: [1, 3], stacked: true, rows_down: 1 };
+    const marks = [...(samples.marks ?? [])].sort((a, b) => a.time_s - b.time_s);
+    drawTimes(plot, marks, warn);
   }
 
   function axis(label) {
@@ -62,7 +76,7 @@
       cursor: { sync: { key: "time" } },
       axes: [axis("time [s]"), { ...axis(label), size: axisWidth_px }],
       series: [{ label: "time", value: (_, value) => shown(value) }, ...series],
-      hooks: { drawAxes: [drawPhases] },
+      hooks: { drawAxes: [drawAllTimes] },
     };
     const data = [description.time_s ?? samples.time_s, ...description.series.map((line) => line.values)];
     return new uPlot(options, data, box);
