@@ -195,6 +195,11 @@ void add_spy(CLI::App& log, Invocation& invocation) {
 void add_log_command(CLI::App& app, Invocation& invocation) {
   CLI::App* log = app.add_subcommand("log", "Look into a recording of the bus");
   log->require_subcommand(1);
+  log->footer(
+      "Examples:\n"
+      "  hoof log info runs/sinkage-2026-01-31-1\n"
+      "  hoof log convert runs/sinkage-2026-01-31-1 --to mcap\n"
+      "  hoof log spy --bus vcan0");
   add_info(*log, invocation);
   add_convert(*log, invocation);
   add_cut(*log, invocation);

@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "tools/cli/commands.h"
-#include "tools/cli/fault_matrix_command.h"
+#include "tools/cli/fault_matrix.h"
 #include "tools/study/study.h"
 
 namespace hoof::tools {

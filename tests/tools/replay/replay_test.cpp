@@ -175,7 +175,7 @@ TEST_CASE("what the firmware hears counts: another order, a lost SYNC, another p
   CHECK(replay(r.bus, r.facts).difference);
 }
 
-TEST_CASE("--to-tick stops where the tick has run") {
+TEST_CASE("a replay told to stop at a tick stops where the tick has run") {
   const Recorded r = record("sinkage", 400);
   ReplayOptions options;
   options.to_tick = 123;

@@ -60,13 +60,16 @@ inline void require_nothing_left() {
   CHECK(processes("hoof-bridge", 0).empty());
 }
 
-inline pid_t wait_for_process(const std::string& name, pid_t parent) {
+/// The child of `program` of that name.
+inline pid_t wait_for_process(const std::string& name, const Program& program) {
   for (int i = 0; i < 2'000; ++i) {
-    const auto found = processes(name, parent);
+    const auto found = processes(name, program.id());
     if (!found.empty()) return found.front();
     std::this_thread::sleep_for(5ms);
   }
-  FAIL(name << " was not started");
+  program.send(SIGKILL);
+  const Outcome outcome = program.wait();
+  FAIL(name << " was not started; status " << outcome.status << ": " << outcome.errors);
   return 0;
 }
 

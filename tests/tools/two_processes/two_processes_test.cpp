@@ -76,7 +76,7 @@ TEST_CASE("a firmware killed at a random tick: named, recorded, and the drives w
     more.insert(more.end(), {"--patience", "0.3"});
     const Program program(short_run("sinkage", scratch.path() / "run", more));
     hal::SocketCanBus listener(hal::SocketCanSettings{});
-    const pid_t firmware = wait_for_process("hoof-firmware", program.id());
+    const pid_t firmware = wait_for_process("hoof-firmware", program);
     const std::uint32_t tick = random() % kTicksOfARun;
     REQUIRE(wait_for_tick(listener, tick));
     kill(firmware, SIGKILL);
@@ -106,7 +106,7 @@ TEST_CASE("a firmware that is told to end says so: nobody waits for it") {
   const ScratchFolder scratch;
   const Program program(short_run("traction", scratch.path() / "run", kOnVcan));
   hal::SocketCanBus listener(hal::SocketCanSettings{});
-  const pid_t firmware = wait_for_process("hoof-firmware", program.id());
+  const pid_t firmware = wait_for_process("hoof-firmware", program);
   REQUIRE(wait_for_tick(listener, 100));
   kill(firmware, SIGTERM);
   const Outcome outcome = program.wait();
@@ -126,7 +126,7 @@ TEST_CASE("a bridge killed at a random tick leaves a readable recording and no p
     const fs::path out = scratch.path() / "run";
     const Program program(short_run("sinkage", out, kOnVcan));
     hal::SocketCanBus listener(hal::SocketCanSettings{});
-    const pid_t bridge = wait_for_process("hoof-bridge", program.id());
+    const pid_t bridge = wait_for_process("hoof-bridge", program);
     const std::uint32_t tick = random() % kTicksOfARun;
     REQUIRE(wait_for_tick(listener, tick));
     kill(bridge, SIGKILL);

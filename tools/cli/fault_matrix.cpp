@@ -1,4 +1,4 @@
-#include "tools/cli/fault_matrix_command.h"
+#include "tools/cli/fault_matrix.h"
 
 #include <algorithm>
 #include <filesystem>
