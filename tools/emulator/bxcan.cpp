@@ -19,20 +19,6 @@ constexpr std::uint32_t kEmptyInterrupt = 1u << 0, kWarningInterrupt = 1u << 8,
 constexpr Cycles kBit = kCyclesPerMicrosecond;
 constexpr Cycles kElevenBits = 11 * kBit;
 
-hal::CanFrame frame_of(std::uint32_t identifier, std::uint32_t length, std::uint32_t low,
-                       std::uint32_t high) {
-  hal::CanFrame frame;
-  frame.extended = (identifier & kExtended) != 0;
-  frame.remote = (identifier & kRemote) != 0;
-  frame.id = identifier >> (frame.extended ? 3 : 21);
-  frame.length = std::uint8_t(std::min<std::uint32_t>(length & 0xF, 8));
-  if (frame.remote) return frame;
-  for (std::size_t i = 0; i < frame.length; ++i) {
-    frame.data[i] = std::uint8_t((i < 4 ? low : high) >> (8 * (i % 4)));
-  }
-  return frame;
-}
-
 std::uint32_t identifier_of(const hal::CanFrame& frame) {
   return frame.id << (frame.extended ? 3 : 21) | (frame.extended ? kExtended : 0) |
          (frame.remote ? kRemote : 0);
@@ -102,18 +88,31 @@ bool BxCan::advance(bool overrun) {
   return waiting;
 }
 
+hal::CanFrame BxCan::frame_in(const Transmit& mailbox) {
+  hal::CanFrame frame;
+  frame.extended = (mailbox.identifier & kExtended) != 0;
+  frame.remote = (mailbox.identifier & kRemote) != 0;
+  frame.id = mailbox.identifier >> (frame.extended ? 3 : 21);
+  frame.length = std::uint8_t(std::min<std::uint32_t>(mailbox.length & 0xF, 8));
+  if (frame.remote) return frame;
+  for (std::size_t i = 0; i < frame.length; ++i) {
+    frame.data[i] = std::uint8_t((i < 4 ? mailbox.low : mailbox.high) >> (8 * (i % 4)));
+  }
+  return frame;
+}
+
 void BxCan::offer_pending() {
   if (!on_bus() || wire_->status().bus_off) return;
   for (Transmit& m : mailboxes_) {
     if (!m.pending || m.offered) continue;
-    m.offered = wire_->offer(frame_of(m.identifier, m.length, m.low, m.high));
+    m.offered = wire_->offer(frame_in(m));
   }
 }
 
 void BxCan::complete_sent() {
   for (const hal::CanFrame& frame : wire_->take_sent()) {
     for (Transmit& m : mailboxes_) {
-      if (!m.pending || !m.offered || !(frame_of(m.identifier, m.length, m.low, m.high) == frame)) {
+      if (!m.pending || !m.offered || !(frame_in(m) == frame)) {
         continue;
       }
       m.pending = m.offered = false;

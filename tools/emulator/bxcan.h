@@ -55,6 +55,7 @@ class BxCan final : public Peripheral {
     bool overrun = false;
   };
 
+  static hal::CanFrame frame_in(const Transmit& mailbox);
   bool on_bus() const;
   void leave_initialisation_if_due();
   void offer_pending();

@@ -146,7 +146,7 @@ void BxCan::write_transmit_status(std::uint32_t value) {
     m.result &= ~(bits & kResult);
     if ((bits & kAbort) == 0 || !m.pending) continue;
     // What is on the wire ends there, and its mailbox is full until then.
-    if (m.offered && !wire_->withdraw(frame_of(m.identifier, m.length, m.low, m.high))) continue;
+    if (m.offered && !wire_->withdraw(frame_in(m))) continue;
     m.pending = m.offered = false;
     m.identifier &= ~kRequest;
     m.result = kCompleted;
