@@ -2,11 +2,14 @@
 #pragma once
 
 #include <cstdlib>
+#include <deque>
 #include <functional>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "firmware/app/received_ids.h"
 #include "firmware/protocol/codec.h"
 #include "tests/hil_bridge/rigid_bench.h"
 #include "tools/emulator/emulated_firmware.h"
@@ -39,6 +42,77 @@ inline FirmwareOn host(const tools::RunSettings& run) {
   return [&run](bridge::Wires&) { return bridge::local_firmware(run.parameters); };
 }
 
+/// What a board's controller has received and its filters let through; it wakes the core for each
+/// such frame, and for each sent.
+class WakingBus final : public hal::CanBus {
+ public:
+  WakingBus(hal::CanBus& inner, std::size_t bus) : inner_(inner) {
+    firmware::app::for_each_received_id(bus, [this](std::uint32_t id) { ids_.insert(id); });
+  }
+
+  /// @return true where something came or went since the last call
+  bool wakes() {
+    const std::size_t had = waiting_.size();
+    hal::CanFrame frame;
+    while (inner_.receive(frame)) {
+      if (!frame.extended && ids_.count(frame.id) != 0) waiting_.push_back(frame);
+    }
+    const std::uint64_t sent = inner_.status().sent;
+    const bool wakes = waiting_.size() > had || sent != sent_;
+    sent_ = sent;
+    return wakes;
+  }
+
+  hal::SendResult send(const hal::CanFrame& frame) override { return inner_.send(frame); }
+  void withdraw(std::uint32_t id) override { inner_.withdraw(id); }
+  hal::BusStatus status() const override { return inner_.status(); }
+  bool receive(hal::CanFrame& frame) override {
+    if (waiting_.empty()) return false;
+    frame = waiting_.front();
+    waiting_.pop_front();
+    return true;
+  }
+
+ private:
+  hal::CanBus& inner_;
+  std::set<std::uint32_t> ids_;
+  std::deque<hal::CanFrame> waiting_;
+  std::uint64_t sent_ = 0;
+};
+
+/// The loop in this process, polled when a board would wake: by its buses, and by SysTick every
+/// millisecond. Whoever polls more often notices sooner that something is missing.
+class HostAtBoardPace final : public bridge::FirmwareNode {
+ public:
+  HostAtBoardPace(hal::CanBus& bus0, hal::CanBus& bus1, const hal::Clock& clock,
+                  const firmware::app::Parameters& parameters)
+      : buses_{WakingBus(bus0, 0), WakingBus(bus1, 1)},
+        clock_(clock),
+        loop_({&buses_[0], &buses_[1]}, clock, board_, parameters) {}
+
+  void poll(std::uint32_t) override {
+    const bool by_bus0 = buses_[0].wakes(), by_bus1 = buses_[1].wakes();
+    if (by_bus0 || by_bus1 || clock_.now_ns() % 1'000'000 == 0) loop_.poll();
+  }
+  const firmware::app::Telemetry& telemetry() const override { return loop_.telemetry(); }
+  firmware::control::Mode mode() const override { return loop_.mode(); }
+  firmware::control::FaultBits faults() const override { return loop_.faults(); }
+
+ private:
+  std::array<WakingBus, 2> buses_;
+  const hal::Clock& clock_;
+  hal::SoftBoard board_;
+  firmware::app::ControlLoop loop_;
+};
+
+inline FirmwareOn host_at_board_pace(const tools::RunSettings& run) {
+  return [&run](bridge::Wires&) {
+    return [&run](hal::CanBus& bus0, hal::CanBus& bus1, const hal::Clock& clock) {
+      return std::make_unique<HostAtBoardPace>(bus0, bus1, clock, run.parameters);
+    };
+  };
+}
+
 inline FirmwareOn image(const tools::RunSettings& run) {
   return [&run](bridge::Wires& wires) {
     return tools::emulator::emulated_firmware(image_file(), run.parameters, wires);
@@ -54,8 +128,11 @@ inline RunRecord record_run(const tools::RunSettings& run, const FirmwareOn& fir
     record.frames.push_back({bus, frame});
   });
   std::uint32_t ticks = 0;
+  bridge::FaultTimeline faults(run.faults, run.has_drives());
+  bridge::SessionSettings settings = session_settings(run);
+  if (!run.faults.empty()) settings.faults = &faults;
   record.result =
-      bridge::run_session(*experiment, firmware(*wires), *wires, session_settings(run),
+      bridge::run_session(*experiment, firmware(*wires), *wires, settings,
                           [&](const bridge::TickRecord&) { return ++ticks < most_ticks; });
   return record;
 }
