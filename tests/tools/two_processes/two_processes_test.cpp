@@ -59,6 +59,7 @@ TEST_CASE("lock-step over vcan0 writes the bus.log of the run in one process, by
   CHECK(result_of(there)["bus"]["frames_lost_by_kernel"] == 0);
   CHECK(result_of(there)["bus"]["clock"] == "lock-step");
   CHECK(result_of(there)["max_depth_m"] == result_of(here)["max_depth_m"]);
+  CHECK(run_program({"replay", there.string()}).status == 0);  // as one of a single process
   require_nothing_left();
 }
 
