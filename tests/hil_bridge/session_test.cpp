@@ -21,15 +21,6 @@ namespace {
 
 constexpr double kDegree_rad = 0.017453292519943295;
 
-SessionSettings session_settings(const tools::RunSettings& run) {
-  SessionSettings s;
-  s.has_toes = run.foot.has_toes;
-  s.toe_rad = run.toe_rad();
-  s.firmware_leg = run.firmware_leg();
-  s.frequency_Hz = run.traction.frequency_Hz;
-  return s;
-}
-
 struct Recording {
   std::vector<SeenFrame> frames;
   std::vector<sim::Phase> phases;  // each once, in order
@@ -51,7 +42,7 @@ struct Bench {
 
   explicit Bench(const std::string& kind, const std::vector<std::string>& set = {})
       : run(test::rigid_run(kind, set)),
-        settings(session_settings(run)),
+        settings(tools::session_settings(run)),
         experiment(test::rigid_bench(run)) {}
 
   SessionResult go() { return go_on(*wires); }

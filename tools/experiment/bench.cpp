@@ -75,6 +75,15 @@ std::unique_ptr<sim::Experiment> make_experiment(
   return std::make_unique<sim::Traction>(run.traction, std::move(plant));
 }
 
+bridge::SessionSettings session_settings(const RunSettings& run) {
+  bridge::SessionSettings s;
+  s.has_toes = run.foot.has_toes;
+  s.toe_rad = run.toe_rad();
+  s.firmware_leg = run.firmware_leg();
+  s.frequency_Hz = run.traction.frequency_Hz;
+  return s;
+}
+
 const sim::SandBed* find_sand(const sim::Terrain& ground) {
   const sim::Terrain* under = &ground;
   if (const auto* journaled = dynamic_cast<const sim::JournaledTerrain*>(under)) {

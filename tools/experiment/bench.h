@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "hil_bridge/session.h"
 #include "sim/dem/sand_bed.h"
 #include "sim/experiments/experiment.h"
 #include "sim/terrain/journaled_terrain.h"
@@ -23,6 +24,9 @@ using BenchNote = std::function<void(const std::string&)>;
 std::unique_ptr<sim::Experiment> make_experiment(
     const RunSettings& run, const BenchProgress& progress, const BenchNote& note,
     const std::optional<sim::JournalSettings>& journal = {});
+
+/// What the session is asked for: toes, gait.
+bridge::SessionSettings session_settings(const RunSettings& run);
 
 /// Null where the ground is not of grains.
 const sim::SandBed* find_sand(const sim::Terrain& ground);

@@ -29,15 +29,6 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-bridge::SessionSettings session_settings(const RunSettings& run) {
-  bridge::SessionSettings s;
-  s.has_toes = run.foot.has_toes;
-  s.toe_rad = run.toe_rad();
-  s.firmware_leg = run.firmware_leg();
-  s.frequency_Hz = run.traction.frequency_Hz;
-  return s;
-}
-
 std::string moment(const sim::Observation& o) {
   char text[80];
   std::snprintf(text, sizeof text, "%s, t = %.3f s, depth %.1f mm", sim::to_string(o.phase),
@@ -118,7 +109,8 @@ class Run {
     const sim::SandBed* sand = find_sand(experiment_->plant().terrain());
     sim::BedState untouched;
     if (sand != nullptr) untouched = sand->state();
-    recorder_ = std::make_unique<Recorder>(run_, bus_->wires_name(), folder_->working_path(), output_.live);
+    recorder_ =
+        std::make_unique<Recorder>(run_, bus_->wires_name(), folder_->working_path(), output_.live);
     const bridge::SessionResult session = drive();
     if (session.interrupted) save_for_resuming();
     recorder_->close();

@@ -9,6 +9,8 @@
 namespace hoof::tests::cost {
 namespace {
 
+using tools::emulator::ElfFile;
+
 TEST_CASE("cycles of instructions as the assembler encodes them") {
   const struct {
     const char* text;
@@ -90,11 +92,11 @@ TEST_CASE("wait cycles of the flash") {
 }
 
 // Code at the start of the flash, as a loader would place it.
-ElfImage code(const std::vector<std::uint16_t>& words) {
-  Segment segment{0x08000000, {}};
+ElfFile code(const std::vector<std::uint16_t>& words) {
+  ElfFile::Segment segment{0x08000000, 0x08000000, {}};
   for (const std::uint16_t word : words) {
-    segment.bytes.push_back(static_cast<unsigned char>(word & 0xff));
-    segment.bytes.push_back(static_cast<unsigned char>(word >> 8));
+    segment.bytes.push_back(static_cast<std::uint8_t>(word & 0xff));
+    segment.bytes.push_back(static_cast<std::uint8_t>(word >> 8));
   }
   return {{segment}, {}};
 }
@@ -123,7 +125,7 @@ TEST_CASE("what cannot be counted is an error") {
   CHECK_THROWS(lost.call(0x08000000));
   CpuRunner endless(code({0xe7fe}));
   CHECK_THROWS_WITH(endless.call(0x08000000), Catch::Contains("no end in sight"));
-  CHECK_THROWS(read_elf(HOOF_TEST_DATA_DIR "/trajectory/README.md"));
+  CHECK_THROWS(tools::emulator::read_elf_file(HOOF_TEST_DATA_DIR "/trajectory/README.md"));
 }
 
 }  // namespace

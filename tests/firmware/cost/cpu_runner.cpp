@@ -91,15 +91,16 @@ struct CpuRunner::Machine {
   }
 };
 
-CpuRunner::CpuRunner(const ElfImage& image) : machine_(std::make_unique<Machine>()) {
+CpuRunner::CpuRunner(const tools::emulator::ElfFile& image)
+    : machine_(std::make_unique<Machine>()) {
   Machine& m = *machine_;
   check(uc_open(UC_ARCH_ARM, static_cast<uc_mode>(UC_MODE_THUMB | UC_MODE_MCLASS), &m.engine),
         "open");
   check(uc_ctl_set_cpu_model(m.engine, UC_CPU_ARM_CORTEX_M4), "choose a Cortex-M4");
   check(uc_mem_map(m.engine, kFlash, kFlashSize, UC_PROT_READ | UC_PROT_EXEC), "map flash");
   check(uc_mem_map(m.engine, kRam, kRamSize, UC_PROT_READ | UC_PROT_WRITE), "map RAM");
-  for (const Segment& segment : image.segments) {
-    if (!segment.bytes.empty()) write(segment.address, segment.bytes.data(), segment.bytes.size());
+  for (const auto& segment : image.segments) {
+    write(segment.run_address, segment.bytes.data(), segment.bytes.size());
   }
   Timing unread;
   unread.bytes = 0;

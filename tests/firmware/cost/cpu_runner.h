@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/firmware/cost/elf_image.h"
+#include "tools/emulator/elf_file.h"
 
 namespace hoof::tests::cost {
 
@@ -21,7 +21,7 @@ class CpuRunner {
  public:
   // Maps 1 MiB of flash at 0x08000000 and 128 KiB of RAM at 0x20000000, and loads the image; its
   // initialised data are where they are used, as after start-up. Throws std::runtime_error.
-  explicit CpuRunner(const ElfImage& image);
+  explicit CpuRunner(const tools::emulator::ElfFile& image);
   ~CpuRunner();
 
   // Calls the function at a symbol's address with an integer argument; its cost is in cost().

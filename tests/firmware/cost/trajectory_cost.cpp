@@ -6,6 +6,7 @@
 #include <iostream>
 #include <limits>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -22,8 +23,14 @@ using firmware::trajectory::Generator;
 using firmware::trajectory::Input;
 using firmware::trajectory::Output;
 using firmware::trajectory::Result;
+using tools::emulator::ElfFile;
 using tools::trajectory::Family;
 using tools::trajectory::Random;
+
+std::uint32_t symbol(const ElfFile& image, const std::string& name) {
+  if (const auto address = image.address_of(name)) return *address;
+  throw std::runtime_error("the image has no symbol " + name);
+}
 
 constexpr double kBar_us = 30;  // of any one update (issue 4)
 constexpr int kMostUpdates = 2000;
@@ -78,9 +85,9 @@ class Bench {
   using In = Input<float, kJoints>;
   using Out = Output<float, kJoints>;
 
-  Bench(const ElfImage& image, int work)
-      : image_(image), cpu_(image), work_(work), update_(image.symbol("cost_update")) {
-    state_bytes_ = cpu_.call(image.symbol("cost_state_bytes"));
+  Bench(const ElfFile& image, int work)
+      : image_(image), cpu_(image), work_(work), update_(symbol(image, "cost_update")) {
+    state_bytes_ = cpu_.call(symbol(image, "cost_state_bytes"));
   }
 
   std::uint32_t state_bytes() const { return state_bytes_; }
@@ -90,7 +97,7 @@ class Bench {
   Tally run(Family family, Random& random) {
     tally_ = {};
     family_ = name(family);
-    cpu_.call(image_.symbol("cost_make"), static_cast<std::uint32_t>(work_));
+    cpu_.call(symbol(image_, "cost_make"), static_cast<std::uint32_t>(work_));
     host_ = std::make_unique<Generator<float, kJoints>>(0.001f);
     host_->set_work_per_update(work_);
     In first = input(family, random);
@@ -140,7 +147,7 @@ class Bench {
 
   // Until its plan runs, and `more` updates on.
   void follow(const In& in, const char* what, int more) {
-    cpu_.write(image_.symbol("cost_input"), &in, sizeof in);
+    cpu_.write(symbol(image_, "cost_input"), &in, sizeof in);
     bool planned = false;
     for (int k = 0; k < kMostUpdates && more > 0; ++k) {
       k_ = k;
@@ -162,7 +169,7 @@ class Bench {
     const Result result = host_->update(in, here);
     const auto there_result = static_cast<std::int8_t>(cpu_.call(update_));
     Out there{};
-    cpu_.read(image_.symbol("cost_output"), &there, sizeof there);
+    cpu_.read(symbol(image_, "cost_output"), &there, sizeof there);
     if (there_result != static_cast<std::int8_t>(result) || !same(here, there)) {
       throw std::runtime_error("the board's output differs from the host's (" + family_ + ", " +
                                what + ", update " + std::to_string(k_) + ")");
@@ -197,7 +204,7 @@ class Bench {
         family_ + ", " + what + (planning ? ", update " + std::to_string(k_) : ", running");
   }
 
-  const ElfImage& image_;
+  const ElfFile& image_;
   CpuRunner cpu_;
   int work_;
   std::uint32_t update_;
@@ -229,12 +236,13 @@ void print_row(int joints, int work, const Tally& t, std::ostream& out) {
 }
 
 // Names of software floating-point doubles and of 64-bit conversions in the image.
-int count_doubles(const ElfImage& image, std::ostream& out) {
+int count_doubles(const ElfFile& image, std::ostream& out) {
   int found = 0;
-  for (const auto& [symbol, address] : image.symbols) {
-    if (symbol.rfind("__aeabi_d", 0) == 0 || symbol.rfind("__aeabi_l", 0) == 0 ||
-        symbol.rfind("__aeabi_ul", 0) == 0 || symbol == "__aeabi_f2d") {
-      out << "software double: " << symbol << "\n";
+  for (const ElfFile::Symbol& each : image.symbols) {
+    const std::string& name = each.name;
+    if (name.rfind("__aeabi_d", 0) == 0 || name.rfind("__aeabi_l", 0) == 0 ||
+        name.rfind("__aeabi_ul", 0) == 0 || name == "__aeabi_f2d") {
+      out << "software double: " << name << "\n";
       ++found;
     }
   }
@@ -250,8 +258,9 @@ void worsen(Outcome& outcome, bool kept) {
 
 template <int kJoints>
 void measure(const Options& options, Outcome& outcome, std::ostream& out) {
-  const ElfImage image = read_elf(std::string(HOOF_COST_IMAGE_DIR) + "/trajectory-" +
-                                  std::to_string(kJoints) + "-" + options.level + ".elf");
+  const ElfFile image =
+      tools::emulator::read_elf_file(std::string(HOOF_COST_IMAGE_DIR) + "/trajectory-" +
+                                     std::to_string(kJoints) + "-" + options.level + ".elf");
   if (count_doubles(image, out) > 0) outcome = Outcome::kMissed;
   std::uint32_t state_bytes = 0;
   for (const int work : options.work) {

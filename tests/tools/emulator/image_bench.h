@@ -21,15 +21,6 @@ inline std::string image_file() {
   return HOOF_BOARD_IMAGE;
 }
 
-inline bridge::SessionSettings session_settings(const tools::RunSettings& run) {
-  bridge::SessionSettings s;
-  s.has_toes = run.foot.has_toes;
-  s.toe_rad = run.toe_rad();
-  s.firmware_leg = run.firmware_leg();
-  s.frequency_Hz = run.traction.frequency_Hz;
-  return s;
-}
-
 struct RunRecord {
   std::vector<SeenFrame> frames;
   bridge::SessionResult result;
@@ -129,7 +120,7 @@ inline RunRecord record_run(const tools::RunSettings& run, const FirmwareOn& fir
   });
   std::uint32_t ticks = 0;
   bridge::FaultTimeline faults(run.faults, run.has_drives());
-  bridge::SessionSettings settings = session_settings(run);
+  bridge::SessionSettings settings = tools::session_settings(run);
   if (!run.faults.empty()) settings.faults = &faults;
   record.result =
       bridge::run_session(*experiment, firmware(*wires), *wires, settings,
