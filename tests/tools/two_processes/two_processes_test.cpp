@@ -265,6 +265,7 @@ TEST_CASE("real time: the run comes to its end and tells how well its deadlines 
     std::cout << outcome.output;
     return;
   }
+  std::cerr << "NOT TESTED: a run in real time to its end; this machine was too busy three times\n";
 }
 
 TEST_CASE("what cannot be done is said in one line") {
