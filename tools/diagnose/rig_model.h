@@ -1,0 +1,73 @@
+// A rig as the search sees it: doubtful numbers and effects in, predicted channels out.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sim/effects/effect.h"
+#include "tools/diagnose/data_set.h"
+
+namespace hoof::tools {
+
+/// A number of the setup that is not known exactly: normal about `value`, cut at `low`.
+struct DoubtfulValue {
+  std::string name;  // key of [setup]; "key@recording" where one recording overrides it
+  double value = 0;
+  double sigma = 0;
+  double low = 0;  // -infinity where it may be negative
+};
+
+struct ActiveEffect {
+  const sim::EffectInfo* info = nullptr;
+  std::vector<double> values;  // in the order of info->parameters
+};
+
+/// What a model is asked for.
+enum class Rollout {
+  kFree,      // from the first sample, by the recorded inputs alone: what is reported
+  kCorrected  // the same, the state drawn weakly to what was measured: what is fitted where noise
+              // of the inputs would carry a free rollout away. May be the same as kFree.
+};
+
+/// By compared channel, in the order of RigModel::channels, one value per sample of the recording;
+/// NaN: not compared there.
+using Prediction = std::vector<std::vector<double>>;
+
+class RigModel {
+ public:
+  virtual ~RigModel() = default;
+
+  /// Of all data sets, one after the other.
+  virtual int recordings() const = 0;
+  virtual const Recording& recording(int index) const = 0;
+  /// Names of the channels that are predicted and were recorded.
+  virtual const std::vector<std::string>& channels(int recording) const = 0;
+
+  /// Stated 1-sigma noise of a channel of a recording; 0 where the data set states none.
+  virtual double stated_noise(int recording, const std::string& channel) const = 0;
+
+  virtual const std::vector<DoubtfulValue>& doubtful() const = 0;
+  /// Those that can act on this rig with these recordings, stand-ins for unlisted physics included.
+  virtual const std::vector<const sim::EffectInfo*>& effects() const = 0;
+
+  /// Safe to call from several threads. Same arguments, same bytes.
+  /// @param setup values in the order of doubtful()
+  virtual Prediction predict(int recording, std::span<const double> setup,
+                             std::span<const ActiveEffect> effects, Rollout rollout) const = 0;
+
+  /// Conditions in rig channels that tell where an effect may be at work, e.g. "velocity < 0", and
+  /// for each sample whether it holds; for the verdict's `where`.
+  struct Condition {
+    std::string text;
+    std::vector<bool> holds;
+  };
+  virtual std::vector<Condition> conditions(int recording) const = 0;
+};
+
+/// @throws UserError where the data sets lack a key or channel of the rig, or are of rigs that
+///         cannot be one machine
+std::unique_ptr<RigModel> make_rig_model(const std::vector<DataSet>& data_sets);
+
+}  // namespace hoof::tools
