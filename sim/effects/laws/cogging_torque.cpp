@@ -15,7 +15,7 @@ class CoggingTorque final : public JointEffect {
 
   unsigned stages() const override { return kLinkStage; }
 
-  double link_torque_Nm(double q_rad, double /*w_rad_s*/, double /*time_s*/) const override {
+  double link_torque_Nm(double q_rad, double /*w_rad_s*/, double /*time_s*/) override {
     return amplitude_Nm_ * std::sin(order_ * q_rad + phase_rad_);
   }
 
