@@ -52,6 +52,10 @@ class RigModel {
   /// Those that can act on this rig with these recordings, stand-ins for unlisted physics included.
   virtual const std::vector<const sim::EffectInfo*>& effects() const = 0;
 
+  /// `starts` and `typical` of an effect's parameter are in this unit: the effort of these data for
+  /// torques, so that one catalogue serves motors of any size.
+  virtual double unit_of(const sim::EffectParameter& /*parameter*/) const { return 1; }
+
   /// Safe to call from several threads. Same arguments, same bytes.
   /// @param setup values in the order of doubtful()
   virtual Prediction predict(int recording, std::span<const double> setup,

@@ -44,7 +44,7 @@ EffectInfo encoder_eccentricity_effect() {
                           2,
                           false,
                           true,
-                          {-2.356, -0.785, 0.785, 2.356}}},
+                          {0, 0.5 * std::numbers::pi}}},
           .experiment =
               "a whole slow turn beside a second, true angle sensor, or free swings at "
               "several angles",

@@ -34,7 +34,12 @@ EffectInfo unlisted_disturbance_effect() {
       .source = "unbalanced machinery nearby",
       .parameters =
           {{"amplitude", "Nm", 0, 1e3, 0.05, true, false, {0.05}},
-           {"rate", "rad/s", 0.2, 200, 10, false, false, {1, 2, 3, 4.5, 6.3, 9, 12.6, 18, 25, 38}},
+           {"rate", "rad/s", 0.2, 200, 10, false, false, {0.4,  0.8,  1.2, 1.6,  2,    2.5,  3,
+                                                          3.5,  4,    4.5, 5,    5.6,  6.3,  7,
+                                                          7.8,  8.6,  9.4, 10.2, 11,   12,   12.6,
+                                                          13.4, 14.2, 15,  15.8, 16.6, 17.4, 18.2,
+                                                          19,   20,   21,  22,   23,   24,   25.1,
+                                                          26,   27,   28,  29,   30,   31.4}},
            {"phase",
             "rad",
             -std::numbers::pi,
@@ -42,7 +47,7 @@ EffectInfo unlisted_disturbance_effect() {
             2,
             false,
             true,
-            {0, 1.571, 3.14, -1.571}}},
+            {0, 0.5 * std::numbers::pi}}},
       .experiment = "hold still and record for a minute",
       .listed = false,
       .make_joint = [](std::span<const double> values) {
