@@ -75,6 +75,25 @@ double first_slope(std::span<const double> time_s, std::span<const double> value
   return spread > 0 ? (n * ty - t * y) / spread : 0;
 }
 
+std::vector<double> slopes(std::span<const double> time_s, std::span<const double> values,
+                           double span_s) {
+  std::vector<double> all(values.size());
+  std::size_t from = 0, to = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    while (time_s[from] < time_s[i] - span_s) ++from;
+    while (to < values.size() && time_s[to] <= time_s[i] + span_s) ++to;
+    double n = 0, t = 0, y = 0, tt = 0, ty = 0;
+    for (std::size_t k = from; k < to; ++k) {
+      if (!std::isfinite(values[k])) continue;
+      const double x = time_s[k] - time_s[i];
+      n += 1, t += x, y += values[k], tt += x * x, ty += x * values[k];
+    }
+    const double spread = n * tt - t * t;
+    all[i] = spread > 0 ? (n * ty - t * y) / spread : std::nan("");
+  }
+  return all;
+}
+
 double rms(std::span<const double> values) {
   double sum = 0, n = 0;
   for (const double v : values) {

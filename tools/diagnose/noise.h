@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 namespace hoof::tools {
 
@@ -14,6 +15,10 @@ double resolution(std::span<const double> values);
 
 /// Weighted slope at the start over `span_s`.
 double first_slope(std::span<const double> time_s, std::span<const double> values, double span_s);
+
+/// Slope at each sample by a straight line through all within `span_s` of it; NaN where none are.
+std::vector<double> slopes(std::span<const double> time_s, std::span<const double> values,
+                           double span_s);
 
 double rms(std::span<const double> values);
 

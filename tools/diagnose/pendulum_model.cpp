@@ -21,7 +21,7 @@ constexpr double kFreeStep_s = 2e-3;
 constexpr double kLongestStep_s = 2.5e-3;
 constexpr double kStartSpan_s = 0.02;  // of the contract
 
-struct SetupKey {
+struct PendulumKey {
   const char* name;
   double PendulumSettings::*member;
   bool needed_by_all;
@@ -29,22 +29,22 @@ struct SetupKey {
 };
 
 constexpr std::array kKeys = {
-    SetupKey{"payload_mass", &PendulumSettings::payload_mass_kg, true, false, false},
-    SetupKey{"payload_length", &PendulumSettings::payload_length_m, true, false, false},
-    SetupKey{"arm_mass", &PendulumSettings::arm_mass_kg, false, false, false},
-    SetupKey{"armature", &PendulumSettings::armature_kg_m2, false, false, false},
-    SetupKey{"gravity", &PendulumSettings::gravity_m_s2, false, false, false},
-    SetupKey{"coulomb", &PendulumSettings::coulomb_Nm, false, false, false},
-    SetupKey{"viscous", &PendulumSettings::viscous_Nm_s_rad, false, false, false},
-    SetupKey{"control_period", &PendulumSettings::control_period_s, false, false, false},
-    SetupKey{"kp_duty", &PendulumSettings::kp_duty, false, true, false},
-    SetupKey{"counts_per_rad", &PendulumSettings::counts_per_rad, false, true, false},
-    SetupKey{"supply_voltage", &PendulumSettings::supply_V, false, false, false},
-    SetupKey{"kt", &PendulumSettings::kt_Nm_A, false, true, false},
-    SetupKey{"resistance", &PendulumSettings::resistance_ohm, false, true, false},
-    SetupKey{"kp", &PendulumSettings::kp_Nm_rad, false, false, true},
-    SetupKey{"kd", &PendulumSettings::kd_Nm_s_rad, false, false, true},
-    SetupKey{"torque_limit", &PendulumSettings::torque_limit_Nm, false, false, true},
+    PendulumKey{"payload_mass", &PendulumSettings::payload_mass_kg, true, false, false},
+    PendulumKey{"payload_length", &PendulumSettings::payload_length_m, true, false, false},
+    PendulumKey{"arm_mass", &PendulumSettings::arm_mass_kg, false, false, false},
+    PendulumKey{"armature", &PendulumSettings::armature_kg_m2, false, false, false},
+    PendulumKey{"gravity", &PendulumSettings::gravity_m_s2, false, false, false},
+    PendulumKey{"coulomb", &PendulumSettings::coulomb_Nm, false, false, false},
+    PendulumKey{"viscous", &PendulumSettings::viscous_Nm_s_rad, false, false, false},
+    PendulumKey{"control_period", &PendulumSettings::control_period_s, false, false, false},
+    PendulumKey{"kp_duty", &PendulumSettings::kp_duty, false, true, false},
+    PendulumKey{"counts_per_rad", &PendulumSettings::counts_per_rad, false, true, false},
+    PendulumKey{"supply_voltage", &PendulumSettings::supply_V, false, false, false},
+    PendulumKey{"kt", &PendulumSettings::kt_Nm_A, false, true, false},
+    PendulumKey{"resistance", &PendulumSettings::resistance_ohm, false, true, false},
+    PendulumKey{"kp", &PendulumSettings::kp_Nm_rad, false, false, true},
+    PendulumKey{"kd", &PendulumSettings::kd_Nm_s_rad, false, false, true},
+    PendulumKey{"torque_limit", &PendulumSettings::torque_limit_Nm, false, false, true},
 };
 
 std::span<const double> channel(const Recording& recording, const std::string& name) {
@@ -53,7 +53,7 @@ std::span<const double> channel(const Recording& recording, const std::string& n
   return found->second;
 }
 
-bool used(const SetupKey& key, DriveLaw law) {
+bool used(const PendulumKey& key, DriveLaw law) {
   if (std::string_view(key.name) == "supply_voltage") return law == DriveLaw::kDuty;
   const bool of_a_law = key.duty || key.impedance;
   return !of_a_law || (key.duty && law == DriveLaw::kDuty) ||
@@ -67,7 +67,7 @@ PendulumSettings read_settings(const DataSet& data_set, const Recording& recordi
   settings.law = setup.law == DriveLaw::kDuty        ? PendulumLaw::kDuty
                  : setup.law == DriveLaw::kImpedance ? PendulumLaw::kImpedance
                                                      : PendulumLaw::kTorque;
-  for (const SetupKey& key : kKeys) {
+  for (const PendulumKey& key : kKeys) {
     const SetupValue* value = setup.find(key.name);
     if (value) {
       settings.*key.member = value->value;
@@ -152,7 +152,7 @@ void PendulumModel::add(const DataSet& data_set, const Recording& recording) {
 }
 
 void PendulumModel::add_doubts(Run& run) {
-  for (const SetupKey& key : kKeys) {
+  for (const PendulumKey& key : kKeys) {
     const SetupValue* value = run.recording->setup.find(key.name);
     if (!value || value->sigma <= 0 || !used(key, run.recording->setup.law)) continue;
     const bool channel =
@@ -173,7 +173,7 @@ void PendulumModel::add_doubts(Run& run) {
 
 PendulumSettings PendulumModel::settings(const Run& run, std::span<const double> setup) const {
   PendulumSettings settings = run.settings;
-  for (const SetupKey& key : kKeys) {
+  for (const PendulumKey& key : kKeys) {
     const auto doubt = run.doubts.find(key.name);
     if (doubt != run.doubts.end()) settings.*key.member = setup[doubt->second];
   }
