@@ -70,7 +70,9 @@ Judgement judge(const Fitter& fitter, const SearchResult& result) {
   double top = -1e300;
   std::vector<double> score;
   for (const Fit& fit : result.fits) {
-    Standing s{&fit, fit.log_evidence - none.log_evidence, holdout_gain(fitter, fit, none), 0, 0};
+    Standing s{
+        &fit, listed(fit), fit.log_evidence - none.log_evidence, holdout_gain(fitter, fit, none), 0,
+        0};
     const Gains g = gains(fitter, fit, none);
     s.explained = g.possible > 0 ? g.made / g.possible : 1;
     score.push_back((s.evidence + s.holdout_gain) / kTemperature +
@@ -89,7 +91,7 @@ Judgement judge(const Fitter& fitter, const SearchResult& result) {
   const Gains all = gains(fitter, none, none);
   j.misfit = all.samples > 0 ? all.possible / all.samples : 0;
   for (const Standing& s : j.standings) {
-    if (listed(*s.fit)) {
+    if (s.listed) {
       j.best_explained = s.explained;
       break;
     }
@@ -100,7 +102,7 @@ Judgement judge(const Fitter& fitter, const SearchResult& result) {
   for (const Standing& s : j.standings) {
     if (s.fit->effects.empty()) {
       j.none += s.probability;
-    } else if (!listed(*s.fit)) {
+    } else if (!s.listed) {
       j.unknown += s.probability;
     } else {
       for (const sim::EffectInfo* e : s.fit->effects) {

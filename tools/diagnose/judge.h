@@ -13,6 +13,7 @@ namespace hoof::tools {
 /// What a hypothesis achieved, relative to the nominal model.
 struct Standing {
   const Fit* fit = nullptr;
+  bool listed = true;       // no stand-in for unlisted physics
   double evidence = 0;      // log evidence of the fit recordings
   double holdout_gain = 0;  // log predictive density of the held-out ones
   double explained = 0;  // share of the log likelihood between nominal and bare noise; 1: all of it
