@@ -137,6 +137,10 @@ EffectFinding Diagnosis::finding(const sim::EffectInfo* effect) const {
       }
       finding.parameters.push_back(estimate);
     }
+    for (const RigModel::Counted& c : model_.counted(*effect)) {
+      ParameterEstimate& estimate = finding.parameters[static_cast<std::size_t>(c.parameter)];
+      estimate.value = c.value, estimate.low95 = c.low95, estimate.high95 = c.high95;
+    }
     break;
   }
   return finding;
