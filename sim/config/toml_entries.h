@@ -1,4 +1,5 @@
-// TOML text as flat entries with their origins. The only user of the TOML library.
+// TOML text as flat entries with their origins. The only user of the TOML library for
+// settings; data sets, which are lists of tables, are read by tools/diagnose.
 #pragma once
 
 #include <string>

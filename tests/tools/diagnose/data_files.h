@@ -1,0 +1,36 @@
+// Data sets in a temporary folder, made from text.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace hoof::tests {
+
+/// A folder that goes with its object.
+class DataFolder {
+ public:
+  DataFolder();
+  ~DataFolder();
+  DataFolder(const DataFolder&) = delete;
+  DataFolder& operator=(const DataFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path write(const std::string& name, const std::string& text) const;
+
+  /// `text` without the folder in front of file names.
+  std::string shortened(std::string text) const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// `text` with the first `from` replaced; fails the test where there is none.
+std::string replaced(std::string text, const std::string& from, const std::string& to);
+
+/// A pendulum under the law "duty" with two recordings, a.csv and b.csv, each on a known line.
+extern const std::string kPendulumToml;
+extern const std::string kPendulumCsv;
+extern const std::string kSandToml;
+extern const std::string kSandCsv;
+
+}  // namespace hoof::tests
