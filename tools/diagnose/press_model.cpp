@@ -42,7 +42,10 @@ PressModel::PressModel(const std::vector<DataSet>& data_sets) {
                       " cannot be one machine with plate_sand or rigid_press");
     }
     for (const Recording& recording : set.recordings) {
-      Press press = {.recording = recording, .rig = set.rig, .noise = set.noise};
+      Press press;
+      press.recording = recording;
+      press.rig = set.rig;
+      press.noise = set.noise;
       if (set.rig == RigKind::kPlateSand) {
         press.surface_height = quantity(set, recording, "surface_height");
         press.k_c = quantity(set, recording, "k_c");
