@@ -75,6 +75,11 @@ void print_summary(const std::vector<DropFit>& fits) {
 }  // namespace
 
 void run_drop_law_study(const std::string& out) {
+  if (!out.empty()) {
+    std::error_code error;
+    std::filesystem::create_directories(out, error);
+    if (error) throw UserError("--out " + out + ": cannot be made: " + error.message());
+  }
   std::vector<DropFit> fits;
   for (const DropLaw& law : drop_laws()) fits.push_back(fit_drop_law(law, paper_drop_table()));
   const Table laws = law_table(fits);
@@ -87,9 +92,6 @@ void run_drop_law_study(const std::string& out) {
       << rows.markdown() << std::flush;
   print_summary(fits);
   if (out.empty()) return;
-  std::error_code error;
-  std::filesystem::create_directories(out, error);
-  if (error) throw UserError("--out " + out + ": cannot be made: " + error.message());
   laws.write_csv(std::filesystem::path(out) / "laws.csv");
   rows.write_csv(std::filesystem::path(out) / "rows.csv");
 }

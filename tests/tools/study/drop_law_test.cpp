@@ -2,8 +2,14 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <iostream>
 #include <numbers>
 #include <random>
+#include <sstream>
+
+#include "tests/tools/run/scratch_folder.h"
+#include "tools/run/errors.h"
+#include "tools/run/output_file.h"
 
 using namespace hoof::tools;
 
@@ -90,4 +96,17 @@ TEST_CASE("a table made with friction is found to have it, and its error held ou
 TEST_CASE("fewer rows than numbers cannot be fitted") {
   CHECK_THROWS_AS(fit_drop_law(drop_laws()[kFreeCurve], {{0.3, 30}, {0.4, 40}}),
                   std::invalid_argument);
+}
+
+TEST_CASE("the study prints before and after and writes both tables") {
+  const hoof::tests::ScratchFolder scratch;
+  const auto out = scratch.path() / "deep" / "drop";
+  std::ostringstream text;
+  std::streambuf* const console = std::cout.rdbuf(text.rdbuf());
+  run_drop_law_study(out.string());
+  std::cout.rdbuf(console);
+  CHECK_THAT(text.str(), Catch::Contains("| 2 e H (k_t = e) "));
+  CHECK_THAT(read_file(out / "laws.csv"), Catch::Contains("\nk_t free,2,40.3"));
+  CHECK_THAT(read_file(out / "rows.csv"), Catch::Contains("\n0.35,39.88,-7.3"));
+  CHECK_THROWS_AS(run_drop_law_study((out / "laws.csv" / "x").string()), UserError);
 }
