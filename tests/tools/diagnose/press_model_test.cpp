@@ -121,6 +121,20 @@ TEST_CASE("a rig of another kind is refused by name") {
                     Catch::Contains("press.toml") && Catch::Contains("servo_pendulum"));
 }
 
+TEST_CASE("effects act in the order of the catalogue, whatever that of the hypothesis") {
+  const PressModel model({sand_set({{.name = "a.csv"}})});
+  const auto cohesion = active("cohesion", {3000});
+  const auto rate = active("rate_dependence", {40});
+  const auto layer = active("hard_layer", {0.01, 3});
+  const auto setup = stated(model);
+  const auto forwards = model.predict(0, setup, std::vector{cohesion, layer, rate}, kFree);
+  CHECK(model.predict(0, setup, std::vector{rate, layer, cohesion}, kFree) == forwards);
+  // A rate multiplies the whole resistance, cohesion included; a layer the nominal strength alone.
+  const auto without = model.predict(0, setup, std::vector{layer}, kFree);
+  const double area_m2 = 0.0016 * 3.14159265358979;
+  CHECK(forwards[0][400] == Approx((without[0][400] + 3000 * area_m2) * 1.12).epsilon(1e-3));
+}
+
 TEST_CASE("presses are counted through recordings and within them, a hovering plate is none") {
   std::vector<double> time_s, height_m;
   const std::vector<double> corners_m = {0.001,   -0.02,  0.001, 0.0002,
