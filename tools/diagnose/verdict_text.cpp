@@ -234,7 +234,7 @@ std::vector<std::string> summary_lines(const Verdict& verdict, RigKind rig,
           "data        " + quality_text(verdict),
           "next        " + (verdict.next_experiment.empty() ? "-" : verdict.next_experiment),
           "files       " + folder +
-              "/report.html, verdict.json, improved.toml, residuals.csv, "
+              "/verdict.json, improved.toml, residuals.csv, "
               "hypotheses.csv"};
 }
 
