@@ -156,7 +156,8 @@ std::string channel_of_error(const std::string& key) {
 }
 
 std::string with_unit(double value, const std::string& unit) {
-  const std::string number = std::isfinite(value) ? format_significant(value, kDigits) : "diverged";
+  const std::string number =
+      std::isfinite(value) ? format_significant(value + 0.0, kDigits) : "diverged";  // no -0
   return unit.empty() || unit == "1" ? number : number + " " + unit;
 }
 
