@@ -168,6 +168,16 @@ const EffectFinding* find_finding(const Verdict& verdict, const std::string& nam
   return found == verdict.effects.end() ? nullptr : &*found;
 }
 
+std::vector<std::string> effects_in_question(const Verdict& verdict) {
+  std::vector<std::string> names = verdict.named;
+  for (const auto& set : verdict.not_separable) {
+    for (const std::string& name : set) {
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+  }
+  return names;
+}
+
 std::string headline(const Verdict& verdict) {
   if (verdict.verdict == "none") {
     return "The model explains these recordings; nothing is missing (probability " +
@@ -235,8 +245,7 @@ std::vector<std::string> summary_lines(const Verdict& verdict, RigKind rig,
           "data        " + quality_text(verdict),
           "next        " + (verdict.next_experiment.empty() ? "-" : verdict.next_experiment),
           "files       " + folder +
-              "/verdict.json, improved.toml, residuals.csv, "
-              "hypotheses.csv"};
+              "/report.html, verdict.json, improved.toml, residuals.csv, hypotheses.csv"};
 }
 
 }  // namespace hoof::tools
