@@ -24,11 +24,12 @@ struct EffectParameter {
   std::string_view unit = {};  // "1" for a pure number
   double low = 0;              // bounds, both allowed
   double high = 0;
-  /// How large it may well be: the scale of a prior, and what a search steps by.
+  /// How large it may well be: the scale of a prior, and what a search steps by. Torques, here and
+  /// in `starts`, are shares of the rms of the data's effort (a ceiling: of its peak), not Nm.
   double typical = 0;
   bool logarithmic = false;  // searched by its logarithm
   bool cyclic = false;       // an angle: low and high are the same
-  /// Where searches start; all combinations are looked at.
+  /// Where searches start; all combinations are looked at. Empty: at `typical`.
   std::vector<double> starts = {};
 };
 

@@ -52,8 +52,8 @@ class JointEffect {
   }
   /// Added to the Coulomb torque; may be negative.
   virtual double friction_Nm(const JointMotion& /*motion*/) const { return 0; }
-  /// Torque on the link.
-  virtual double link_torque_Nm(double /*q_rad*/, double /*w_rad_s*/, double /*time_s*/) const {
+  /// Torque on the link; called once per step, time from the start of the recording or run.
+  virtual double link_torque_Nm(double /*q_rad*/, double /*w_rad_s*/, double /*time_s*/) {
     return 0;
   }
   /// Full gap between motor side and link.

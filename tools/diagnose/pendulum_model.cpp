@@ -1,0 +1,322 @@
+#include "tools/diagnose/pendulum_model.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "tools/diagnose/noise.h"
+#include "tools/run/errors.h"
+
+namespace hoof::tools {
+namespace {
+
+using sim::JointEffect;
+using sim::PendulumLaw;
+using sim::PendulumSettings;
+
+/// Where no control period is stated the law is evaluated at every step of this length: a servo's
+/// loop closes at a few Hz, so that a hundred steps go into a radian of its phase.
+constexpr double kFreeStep_s = 2e-3;
+constexpr double kLongestStep_s = 2.5e-3;
+constexpr double kStartSpan_s = 0.02;  // of the contract
+
+struct PendulumKey {
+  const char* name;
+  double PendulumSettings::*member;
+  bool needed_by_all;
+  bool duty, impedance;  // needed by these laws
+};
+
+constexpr std::array kKeys = {
+    PendulumKey{"payload_mass", &PendulumSettings::payload_mass_kg, true, false, false},
+    PendulumKey{"payload_length", &PendulumSettings::payload_length_m, true, false, false},
+    PendulumKey{"arm_mass", &PendulumSettings::arm_mass_kg, false, false, false},
+    PendulumKey{"armature", &PendulumSettings::armature_kg_m2, false, false, false},
+    PendulumKey{"gravity", &PendulumSettings::gravity_m_s2, false, false, false},
+    PendulumKey{"coulomb", &PendulumSettings::coulomb_Nm, false, false, false},
+    PendulumKey{"viscous", &PendulumSettings::viscous_Nm_s_rad, false, false, false},
+    PendulumKey{"control_period", &PendulumSettings::control_period_s, false, false, false},
+    PendulumKey{"kp_duty", &PendulumSettings::kp_duty, false, true, false},
+    PendulumKey{"counts_per_rad", &PendulumSettings::counts_per_rad, false, true, false},
+    PendulumKey{"supply_voltage", &PendulumSettings::supply_V, false, false, false},
+    PendulumKey{"kt", &PendulumSettings::kt_Nm_A, false, true, false},
+    PendulumKey{"resistance", &PendulumSettings::resistance_ohm, false, true, false},
+    PendulumKey{"kp", &PendulumSettings::kp_Nm_rad, false, false, true},
+    PendulumKey{"kd", &PendulumSettings::kd_Nm_s_rad, false, false, true},
+    PendulumKey{"torque_limit", &PendulumSettings::torque_limit_Nm, false, false, true},
+};
+
+std::span<const double> channel(const Recording& recording, const std::string& name) {
+  const auto found = recording.channels.find(name);
+  if (found == recording.channels.end()) return {};
+  return found->second;
+}
+
+bool used(const PendulumKey& key, DriveLaw law) {
+  if (std::string_view(key.name) == "supply_voltage") return law == DriveLaw::kDuty;
+  const bool of_a_law = key.duty || key.impedance;
+  return !of_a_law || (key.duty && law == DriveLaw::kDuty) ||
+         (key.impedance && law == DriveLaw::kImpedance);
+}
+
+PendulumSettings read_settings(const DataSet& data_set, const Recording& recording) {
+  PendulumSettings settings;
+  const Setup& setup = recording.setup;
+  const std::string where = data_set.file.string() + ": [setup]";
+  settings.law = setup.law == DriveLaw::kDuty        ? PendulumLaw::kDuty
+                 : setup.law == DriveLaw::kImpedance ? PendulumLaw::kImpedance
+                                                     : PendulumLaw::kTorque;
+  for (const PendulumKey& key : kKeys) {
+    const SetupValue* value = setup.find(key.name);
+    if (value) {
+      settings.*key.member = value->value;
+    } else if (key.needed_by_all || ((key.duty || key.impedance) && used(key, setup.law))) {
+      throw UserError(where + " lacks " + key.name + ", which " + recording.name + " needs");
+    }
+  }
+  const bool supply = recording.has("supply_voltage") || setup.find("supply_voltage");
+  if (settings.law == PendulumLaw::kDuty && !supply) {
+    throw UserError(where + " lacks supply_voltage, and " + recording.name +
+                    " has no such channel");
+  }
+  return settings;
+}
+
+/// Missing samples of an input filled by the last one before: a drive holds what it has.
+void fill_gaps(std::vector<double>& values) {
+  double last = 0;
+  for (const double v : values) {
+    if (std::isfinite(v)) {
+      last = v;
+      break;
+    }
+  }
+  for (double& v : values) v = last = std::isfinite(v) ? v : last;
+}
+
+bool is_input(const std::string& name, DriveLaw law) {
+  return name == "position_goal" || name == "velocity_goal" || name == "torque_ff" ||
+         name == "enable" || name == "supply_voltage" ||
+         (name == "torque" && law == DriveLaw::kTorque);
+}
+
+}  // namespace
+
+PendulumModel::PendulumModel(std::vector<DataSet> data_sets) : data_sets_(std::move(data_sets)) {
+  for (DataSet& data_set : data_sets_) {
+    for (Recording& recording : data_set.recordings) {
+      for (auto& [name, values] : recording.channels) {
+        if (is_input(name, recording.setup.law)) fill_gaps(values);
+      }
+    }
+  }
+  for (const DataSet& data_set : data_sets_) {
+    for (const Recording& recording : data_set.recordings) add(data_set, recording);
+  }
+  choose_effects();
+  measure_effort();
+}
+
+void PendulumModel::add(const DataSet& data_set, const Recording& recording) {
+  Run run;
+  run.data_set = &data_set;
+  run.recording = &recording;
+  run.settings = read_settings(data_set, recording);
+  const DriveLaw law = recording.setup.law;
+  const std::string needed = law == DriveLaw::kTorque ? "torque" : "position_goal";
+  for (const std::string& name : {needed, std::string("position")}) {
+    if (!recording.has(name)) {
+      throw UserError(data_set.file.string() + ": recording " + recording.name +
+                      " lacks the channel " + name + ", which the rig servo_pendulum needs");
+    }
+  }
+  run.inputs = {recording.time_s,
+                channel(recording, "position_goal"),
+                channel(recording, "velocity_goal"),
+                channel(recording, "torque_ff"),
+                channel(recording, "enable"),
+                channel(recording, "supply_voltage"),
+                law == DriveLaw::kTorque ? channel(recording, "torque") : std::span<const double>(),
+                channel(recording, "position")};
+  for (const char* name : {"position", "velocity", "torque", "current"}) {
+    if (recording.has(name) && !is_input(name, law)) run.channels.push_back(name);
+  }
+  // Current of a recording driven by torque is that torque over kt: nothing to predict.
+  if (law == DriveLaw::kTorque) std::erase(run.channels, "current");
+  run.longest_step_s = run.settings.control_period_s > 0 ? kLongestStep_s : kFreeStep_s;
+  add_doubts(run);
+  estimate_start(run);
+  choose_correction(run);
+  runs_.push_back(std::move(run));
+}
+
+void PendulumModel::add_doubts(Run& run) {
+  for (const PendulumKey& key : kKeys) {
+    const SetupValue* value = run.recording->setup.find(key.name);
+    if (!value || value->sigma <= 0 || !used(key, run.recording->setup.law)) continue;
+    const bool channel =
+        std::string_view(key.name) == "supply_voltage" && run.recording->has("supply_voltage");
+    if (channel) continue;
+    // The same key with the same numbers is the same thing; an override is this recording's own.
+    const SetupValue* shared = run.data_set->setup.find(key.name);
+    const bool own = !shared || shared->value != value->value || shared->sigma != value->sigma;
+    const std::string name = own ? std::string(key.name) + "@" + run.recording->name : key.name;
+    int index = 0;
+    while (index < static_cast<int>(doubtful_.size()) && doubtful_[index].name != name) ++index;
+    if (index == static_cast<int>(doubtful_.size())) {
+      doubtful_.push_back({name, value->value, value->sigma, 0});
+    }
+    run.doubts[key.name] = index;
+  }
+}
+
+PendulumSettings PendulumModel::settings(const Run& run, std::span<const double> setup) const {
+  PendulumSettings settings = run.settings;
+  for (const PendulumKey& key : kKeys) {
+    const auto doubt = run.doubts.find(key.name);
+    if (doubt != run.doubts.end()) settings.*key.member = setup[doubt->second];
+  }
+  settings.resistance_ohm = std::max(settings.resistance_ohm, 1e-6);
+  return settings;
+}
+
+void PendulumModel::estimate_start(Run& run) const {
+  const Recording& recording = *run.recording;
+  const auto position = channel(recording, "position");
+  const auto velocity = channel(recording, "velocity");
+  run.start.position_rad = std::isfinite(position.front()) ? position.front() : 0;
+  const bool measured = !velocity.empty() && std::isfinite(velocity.front());
+  run.start.velocity_rad_s =
+      measured ? velocity.front() : first_slope(recording.time_s, position, kStartSpan_s);
+}
+
+/// Stationary Kalman gain for noise in the torque that drives an open loop. A closed loop needs
+/// none: it draws the state to the goal by itself.
+void PendulumModel::choose_correction(Run& run) const {
+  if (run.settings.law != PendulumLaw::kTorque) return;
+  const Recording& recording = *run.recording;
+  const auto& t = recording.time_s;
+  const double dt = (t.back() - t.front()) / static_cast<double>(t.size() - 1);
+  const PendulumSettings& s = run.settings;
+  const double J = s.link_inertia_kg_m2() + s.armature_kg_m2;
+  double position = stated_noise(*run.data_set, "position");
+  if (position <= 0) position = estimate_noise(t, channel(recording, "position"));
+  double torque = stated_noise(*run.data_set, "torque");
+  if (torque <= 0) torque = estimate_noise(t, channel(recording, "torque"));
+  if (position <= 0 || torque <= 0 || J <= 0) return;
+  Eigen::Matrix2d A;
+  A << 1, dt, -s.gravity_torque_Nm() * dt / J, 1 - s.viscous_Nm_s_rad * dt / J;
+  Eigen::Matrix2d Q = Eigen::Matrix2d::Zero();
+  Q(1, 1) = torque * dt / J * torque * dt / J;
+  Q(0, 0) = Q(1, 1) * dt * dt / 4;
+  Eigen::Matrix2d P = Eigen::Matrix2d::Identity();
+  Eigen::Vector2d gain = Eigen::Vector2d::Zero();
+  for (int i = 0; i < 2000; ++i) {
+    P = A * P * A.transpose() + Q;
+    gain = P.col(0) / (P(0, 0) + position * position);
+    run.wander_rad = std::sqrt(P(0, 0));
+    run.wander_rad_s = std::sqrt(P(1, 1));
+    P -= gain * P.row(0);
+  }
+  run.correction = {gain[0], gain[1]};
+}
+
+double PendulumModel::stated_noise(const DataSet& data_set, const std::string& channel) {
+  const auto found = data_set.noise.find(channel);
+  return found == data_set.noise.end() ? 0 : found->second;
+}
+
+double PendulumModel::stated_noise(int index, const std::string& channel) const {
+  return stated_noise(*runs_[index].data_set, channel);
+}
+
+double PendulumModel::input_noise(int index, const std::string& channel) const {
+  const Run& run = runs_[index];
+  return channel == "position" ? run.wander_rad : channel == "velocity" ? run.wander_rad_s : 0;
+}
+
+void PendulumModel::choose_effects() {
+  bool goals = false, sags = false;
+  for (const Run& run : runs_) {
+    goals = goals || run.settings.law != PendulumLaw::kTorque;
+    sags = sags || (run.settings.law == PendulumLaw::kDuty && run.inputs.supply_V.empty());
+  }
+  for (const sim::EffectInfo& effect : sim::effect_catalogue()) {
+    if (!effect.make_joint) continue;
+    std::vector<double> values;
+    for (const sim::EffectParameter& p : effect.parameters) values.push_back(p.typical);
+    const unsigned stages = effect.make_joint(values)->stages();
+    if ((stages & sim::kGoalStage) && !goals) continue;
+    if ((stages & sim::kSupplyStage) && !sags) continue;
+    effects_.push_back(&effect);
+  }
+}
+
+/// Effects of heat are scaled by the rms of the effort over all data; where it was not recorded the
+/// nominal model's stands for it.
+void PendulumModel::measure_effort() {
+  double sum = 0, count = 0;
+  std::vector<double> setup;
+  for (const DoubtfulValue& doubt : doubtful_) setup.push_back(doubt.value);
+  for (Run& run : runs_) {
+    std::vector<double> effort;
+    double scale = 1;
+    for (const char* name : {"torque", "current"}) {
+      const auto recorded = channel(*run.recording, name);
+      if (!effort.empty() || recorded.empty()) continue;
+      effort.assign(recorded.begin(), recorded.end());
+      if (std::string_view(name) == "current") scale = run.settings.kt_Nm_A;
+    }
+    if (effort.empty()) {
+      sim::PendulumTrace trace;
+      simulate_pendulum(settings(run, setup), run.inputs, {}, run.start, {}, run.longest_step_s,
+                        trace);
+      effort = trace.torque_Nm;
+    }
+    for (const double v : effort) {
+      if (!std::isfinite(v)) continue;
+      sum += scale * scale * v * v, count += 1;
+      torque_peak_Nm_ = std::max(torque_peak_Nm_, std::abs(scale * v));
+    }
+  }
+  torque_rms_Nm_ = count > 0 ? std::sqrt(sum / count) : 0;
+  for (Run& run : runs_) {
+    const double kt = run.settings.kt_Nm_A;
+    run.start.torque_rms_Nm = torque_rms_Nm_;
+    run.start.current_rms_A = kt > 0 ? torque_rms_Nm_ / kt : 0;
+  }
+}
+
+double PendulumModel::unit_of(const sim::EffectParameter& parameter) const {
+  if (!parameter.unit.starts_with("Nm")) return 1;
+  const bool peak = parameter.name == "ceiling";
+  const double scale = peak ? torque_peak_Nm_ : torque_rms_Nm_;
+  return scale > 0 ? scale : 1;
+}
+
+Prediction PendulumModel::predict(int index, std::span<const double> setup,
+                                  std::span<const ActiveEffect> active, Rollout rollout) const {
+  const Run& run = runs_[index];
+  std::vector<std::unique_ptr<JointEffect>> owned;
+  std::vector<JointEffect*> effects;
+  for (const ActiveEffect& effect : active) {
+    owned.push_back(effect.info->make_joint(effect.values));
+    effects.push_back(owned.back().get());
+  }
+  const auto correction =
+      rollout == Rollout::kCorrected ? run.correction : sim::PendulumCorrection{};
+  sim::PendulumTrace trace;
+  simulate_pendulum(settings(run, setup), run.inputs, effects, run.start, correction,
+                    run.longest_step_s, trace);
+  Prediction prediction;
+  for (const std::string& name : run.channels) {
+    prediction.push_back(name == "position"   ? std::move(trace.position_rad)
+                         : name == "velocity" ? std::move(trace.velocity_rad_s)
+                         : name == "torque"   ? std::move(trace.torque_Nm)
+                                              : std::move(trace.current_A));
+  }
+  return prediction;
+}
+
+}  // namespace hoof::tools

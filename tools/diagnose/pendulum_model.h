@@ -1,0 +1,62 @@
+// The servo pendulum as the search sees it.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "sim/rigs/servo_pendulum.h"
+#include "tools/diagnose/rig_model.h"
+
+namespace hoof::tools {
+
+class PendulumModel final : public RigModel {
+ public:
+  /// @throws UserError naming file and key where something that the rig needs is missing
+  explicit PendulumModel(std::vector<DataSet> data_sets);
+
+  int recordings() const override { return static_cast<int>(runs_.size()); }
+  const Recording& recording(int index) const override { return *runs_[index].recording; }
+  const std::vector<std::string>& channels(int index) const override {
+    return runs_[index].channels;
+  }
+  double stated_noise(int recording, const std::string& channel) const override;
+  double input_noise(int recording, const std::string& channel) const override;
+  const std::vector<DoubtfulValue>& doubtful() const override { return doubtful_; }
+  const std::vector<const sim::EffectInfo*>& effects() const override { return effects_; }
+  double unit_of(const sim::EffectParameter& parameter) const override;
+  Prediction predict(int recording, std::span<const double> setup,
+                     std::span<const ActiveEffect> effects, Rollout rollout) const override;
+  std::vector<Condition> conditions(int recording) const override;
+
+ private:
+  struct Run {
+    const DataSet* data_set = nullptr;
+    const Recording* recording = nullptr;
+    sim::PendulumInputs inputs;
+    sim::PendulumSettings settings;  // as stated
+    sim::PendulumStart start;
+    sim::PendulumCorrection correction;
+    double wander_rad = 0, wander_rad_s = 0;  // 1-sigma of the corrected state before a sample
+    std::vector<std::string> channels;
+    double longest_step_s = 0;
+    std::map<std::string, int> doubts;  // key of the setup to index in doubtful_
+  };
+
+  static double stated_noise(const DataSet& data_set, const std::string& channel);
+  void add(const DataSet& data_set, const Recording& recording);
+  void add_doubts(Run& run);
+  void choose_effects();
+  sim::PendulumSettings settings(const Run& run, std::span<const double> setup) const;
+  void estimate_start(Run& run) const;
+  void choose_correction(Run& run) const;
+  void measure_effort();
+
+  std::vector<DataSet> data_sets_;
+  std::vector<Run> runs_;
+  std::vector<DoubtfulValue> doubtful_;
+  std::vector<const sim::EffectInfo*> effects_;
+  double torque_rms_Nm_ = 0, torque_peak_Nm_ = 0;  // over all recordings
+};
+
+}  // namespace hoof::tools

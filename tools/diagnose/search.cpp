@@ -1,0 +1,328 @@
+#include "tools/diagnose/search.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numbers>
+#include <thread>
+
+namespace hoof::tools {
+namespace {
+
+/// Nothing is believed to be better than this share of the sensor's noise.
+constexpr double kLeastVariance = 0.8;
+/// A start is scaled to the size the recordings ask for, by no more than this.
+constexpr double kMostScale = 30;
+/// Contenders that are fitted anew with the noise as the best of them leaves it.
+constexpr int kContenders = 16;
+/// Residuals count for no less than one in this many.
+constexpr double kLeastEffective = 1.0 / 200;
+
+struct Candidate {
+  Effects effects;
+  Eigen::VectorXd x;
+  double gain = 0;  // by which half the sum of squares would fall, linearly
+};
+
+/// Residuals of a fit and a basis of what its own parameters can do.
+struct Tangent {
+  Eigen::VectorXd r;
+  Eigen::MatrixXd basis;
+};
+
+Tangent tangent(const Fitter& fitter, const Fit& fit) {
+  const Layout layout(fitter.model(), fit.effects);
+  Tangent t;
+  const Eigen::VectorXd r = fitter.residuals(layout, fit.x);
+  const Eigen::Index samples = r.size() - layout.size();
+  const Eigen::MatrixXd J = fitter.jacobian(layout, fit.x, r).topRows(samples);
+  t.r = r.head(samples);
+  if (layout.size() > 0) {
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(J);
+    t.basis = qr.householderQ() * Eigen::MatrixXd::Identity(samples, J.cols());
+  }
+  return t;
+}
+
+Effects with(const Effects& effects, const sim::EffectInfo* one) {
+  Effects sum = effects;
+  sum.push_back(one);
+  return sum;
+}
+
+/// Starts of `effect` beside a fit, each at the size that a linear step asks for, best first.
+std::vector<Candidate> starts_beside(const Fitter& fitter, const Fit& base, const Tangent& tangent,
+                                     const sim::EffectInfo* effect) {
+  const Layout alone(fitter.model(), {effect});
+  const Layout both(fitter.model(), with(base.effects, effect));
+  std::vector<Candidate> candidates;
+  for (const Layout::Start& start : alone.starts(base.x)) {
+    const int setup = alone.setup_count();
+    const auto own = alone.size() - setup;
+    Eigen::VectorXd x(both.size());
+    x << base.x, start.x.tail(own);
+    const int shift = both.size() - alone.size();
+    const Eigen::VectorXd r = fitter.residuals(both, x).head(tangent.r.size());
+    Eigen::VectorXd change = r - tangent.r;
+    if (tangent.basis.cols() > 0) change -= tangent.basis * (tangent.basis.transpose() * change);
+    const double square = change.squaredNorm();
+    if (!(square > 1e-12)) continue;
+    double scale = -tangent.r.dot(change) / square;
+    const int size = start.size_coordinate, phase = start.phase_coordinate;
+    if (scale < 0 && phase >= 0) {
+      x[phase + shift] += std::numbers::pi;
+      scale = -scale;
+    }
+    double gain = 0.5 * scale * scale * square;
+    if (size >= 0) {
+      const bool by_log = alone.of_effect(size - setup).parameter->logarithmic;
+      if (by_log && scale <= 0) continue;
+      const double limited = std::clamp(scale, by_log ? 1 / kMostScale : -kMostScale, kMostScale);
+      if (by_log) {
+        x[size + shift] += std::log(limited);
+      } else {
+        x[size + shift] *= limited;
+      }
+    } else {
+      // No size to scale: what the start itself gains.
+      gain = scale > 0 ? 0.5 * std::min(scale, 1.0) * (2 - std::min(scale, 1.0)) * square : 0;
+    }
+    candidates.push_back({both.effects(), x, gain});
+  }
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
+  return candidates;
+}
+
+class Search {
+ public:
+  Search(Fitter& fitter, const SearchOptions& options) : fitter_(fitter), options_(options) {}
+
+  SearchResult run() {
+    fit_nominal();
+    fit_singles();
+    fit_pairs();
+    take_noise_of_best();
+    fit_contenders();
+    say(1, "done");
+    return std::move(result_);
+  }
+
+ private:
+  void say(double share, const std::string& what) const {
+    if (options_.progress && !options_.progress(share, what)) throw SearchStopped();
+  }
+
+  void fit_nominal() {
+    say(0, "nominal model");
+    const Layout layout(fitter_.model(), {});
+    Fit stated;
+    stated.x = layout.stated();
+    fitter_.judge(stated);
+    result_.stated_objective = stated.objective;
+    // First with room for what is not modelled, then in units of the noise.
+    auto& groups = fitter_.groups();
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      const double misfit = std::sqrt(stated.squares[g] / std::max(groups[g].samples, 1.0));
+      groups[g].sigma = std::max(groups[g].noise, 0.3 * misfit);
+    }
+    Fit nominal = fitter_.fit({}, stated.x, options_.iterations);
+    for (Group& group : groups) group.sigma = group.noise;
+    nominal = fitter_.fit({}, nominal.x, options_.iterations);
+    fitter_.judge(nominal);
+    result_.fits = {nominal};
+  }
+
+  void follow(const std::vector<Candidate>& candidates, double from, double to,
+              const std::string& what) {
+    std::vector<Fit> fits(candidates.size());
+    std::atomic<int> done{0};
+    for_each_task(static_cast<int>(candidates.size()), options_.threads, [&](int i) {
+      fits[i] = fitter_.fit(candidates[i].effects, candidates[i].x, options_.iterations);
+      fitter_.judge(fits[i]);
+      const double share = ++done / static_cast<double>(candidates.size());
+      if (std::this_thread::get_id() == caller_) say(from + (to - from) * share, what);
+    });
+    // Of each hypothesis the best fit stays.
+    for (Fit& fit : fits) {
+      Fit* known = nullptr;
+      for (Fit& other : result_.fits) {
+        if (other.effects == fit.effects) known = &other;
+      }
+      if (!known) {
+        result_.fits.push_back(std::move(fit));
+      } else if (fit.objective < known->objective) {
+        *known = std::move(fit);
+      }
+    }
+  }
+
+  std::vector<Candidate> look_beside(const Fit& base, int starts) {
+    const Tangent t = tangent(fitter_, base);
+    const auto& effects = fitter_.model().effects();
+    std::vector<std::vector<Candidate>> found(effects.size());
+    for_each_task(static_cast<int>(effects.size()), options_.threads, [&](int i) {
+      const bool there =
+          std::find(base.effects.begin(), base.effects.end(), effects[i]) != base.effects.end();
+      if (!there) found[i] = starts_beside(fitter_, base, t, effects[i]);
+    });
+    std::vector<Candidate> all;
+    for (auto& list : found) {
+      if (static_cast<int>(list.size()) > starts) list.resize(starts);
+      for (Candidate& c : list) all.push_back(std::move(c));
+    }
+    return all;
+  }
+
+  void fit_singles() {
+    say(0.05, "one effect");
+    follow(look_beside(result_.fits[0], options_.fits_of_single), 0.1, 0.45, "one effect");
+  }
+
+  void fit_pairs() {
+    say(0.45, "pairs");
+    std::vector<Fit> singles = ranked();
+    std::erase_if(singles,
+                  [](const Fit& f) { return f.effects.size() != 1 || !f.effects[0]->listed; });
+    if (singles.size() > 4) singles.resize(4);
+    std::vector<Candidate> pairs;
+    for (const Fit& base : singles) {
+      for (Candidate& c : look_beside(base, 1)) {
+        if (!c.effects.back()->listed) continue;
+        c.gain += first_rank(fitter_, base) - first_rank(fitter_, result_.fits[0]);
+        pairs.push_back(std::move(c));
+      }
+    }
+    std::stable_sort(pairs.begin(), pairs.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
+    // The same pair from both sides is worth two starts, not more.
+    if (static_cast<int>(pairs.size()) > options_.pair_fits) pairs.resize(options_.pair_fits);
+    for (Candidate& pair : pairs) put_in_order(pair);
+    follow(pairs, 0.5, 0.75, "pairs");
+  }
+
+  /// Effects of a pair in the catalogue's order, so that both ways round are one hypothesis.
+  void put_in_order(Candidate& pair) const {
+    if (pair.effects[0] < pair.effects[1]) return;
+    const auto first = static_cast<Eigen::Index>(pair.effects[0]->parameters.size());
+    const auto second = static_cast<Eigen::Index>(pair.effects[1]->parameters.size());
+    const Eigen::Index setup = pair.x.size() - first - second;
+    Eigen::VectorXd x(pair.x.size());
+    x << pair.x.head(setup), pair.x.tail(second), pair.x.segment(setup, first);
+    pair.x = x;
+    std::swap(pair.effects[0], pair.effects[1]);
+  }
+
+  std::vector<Fit> ranked() const {
+    std::vector<Fit> fits = result_.fits;
+    std::stable_sort(fits.begin(), fits.end(), [this](const Fit& a, const Fit& b) {
+      return first_rank(fitter_, a) > first_rank(fitter_, b);
+    });
+    return fits;
+  }
+
+  void take_noise_of_best();
+
+  void fit_contenders() {
+    say(0.8, "contenders");
+    std::vector<Fit> fits = ranked();
+    const Fit nominal = result_.fits[0];
+    std::vector<Candidate> again = {{nominal.effects, nominal.x, 0}};
+    for (const Fit& fit : fits) {
+      if (!fit.effects.empty() && static_cast<int>(again.size()) < kContenders) {
+        again.push_back({fit.effects, fit.x, 0});
+      }
+    }
+    std::vector<Fit> others;
+    for (const Fit& fit : fits) {
+      const bool contends = std::any_of(again.begin(), again.end(), [&fit](const Candidate& c) {
+        return c.effects == fit.effects;
+      });
+      if (!contends) others.push_back(fit);
+    }
+    result_.fits.clear();
+    follow(again, 0.8, 0.98, "contenders");
+    for_each_task(static_cast<int>(others.size()), options_.threads,
+                  [&](int i) { fitter_.judge(others[i]); });
+    for (Fit& fit : others) result_.fits.push_back(std::move(fit));
+  }
+
+  Fitter& fitter_;
+  const SearchOptions& options_;
+  SearchResult result_;
+  std::thread::id caller_ = std::this_thread::get_id();
+};
+
+/// Share of samples that are independent: one over one plus twice the sum of the correlations,
+/// while those of neighbouring pairs of lags are positive (Geyer, Stat. Sci. 7 (1992) 473).
+double effective_share(const std::vector<double>& d) {
+  std::vector<double> x;
+  for (const double v : d) {
+    if (std::isfinite(v)) x.push_back(v);
+  }
+  const auto n = x.size();
+  double power = 0;
+  for (const double v : x) power += v * v;
+  if (n < 20 || power <= 0) return 1;
+  double sum = 0;
+  const auto correlation = [&](std::size_t lag) {
+    double s = 0;
+    for (std::size_t i = 0; i + lag < n; ++i) s += x[i] * x[i + lag];
+    return s / power;
+  };
+  for (std::size_t lag = 1; lag + 1 < n / 4; lag += 2) {
+    const double pair = correlation(lag) + correlation(lag + 1);
+    if (pair < 0.02) break;
+    sum += pair;
+  }
+  return std::clamp(1 / (1 + 2 * sum), kLeastEffective, 1.0);
+}
+
+void Search::take_noise_of_best() {
+  const Fit best = ranked().front();
+  auto& groups = fitter_.groups();
+  std::vector<double> share(groups.size(), 1), variance(groups.size(), 0);
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const Prediction p = fitter_.predict(best, groups[g].recording, Rollout::kCorrected);
+    share[g] = effective_share(fitter_.differences(groups[g], p[groups[g].channel]));
+    variance[g] = best.squares[g] / std::max(groups[g].samples, 1.0);
+  }
+  // What a recording that was not fitted leaves is no measure of noise: it takes its channel's.
+  const auto name = [this](const Group& g) {
+    return fitter_.model().channels(g.recording)[g.channel];
+  };
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    double v = 0, e = 0, n = 0;
+    for (std::size_t o = 0; o < groups.size(); ++o) {
+      const bool alike =
+          groups[g].holdout ? !groups[o].holdout && name(groups[o]) == name(groups[g]) : o == g;
+      if (!alike) continue;
+      v += variance[o], e += share[o], n += 1;
+    }
+    const double least = kLeastVariance * groups[g].noise * groups[g].noise;
+    groups[g].sigma = std::sqrt(std::max(n > 0 ? v / n : 0.0, least));
+    groups[g].effective = n > 0 ? e / n : share[g];
+  }
+}
+
+}  // namespace
+
+double first_rank(const Fitter& fitter, const Fit& fit) {
+  double likelihood = 0, samples = 0;
+  for (std::size_t g = 0; g < fitter.groups().size(); ++g) {
+    const Group& group = fitter.groups()[g];
+    if (group.holdout || group.samples < 1) continue;
+    const double least = kLeastVariance * group.noise * group.noise;
+    const double variance = std::max(fit.squares[g] / group.samples, least);
+    likelihood -= 0.5 * group.samples * std::log(variance);
+    samples += group.samples;
+  }
+  return likelihood - 0.5 * static_cast<double>(fit.x.size()) * std::log(std::max(samples, 2.0));
+}
+
+SearchResult search(Fitter& fitter, const SearchOptions& options) {
+  return Search(fitter, options).run();
+}
+
+}  // namespace hoof::tools
