@@ -6,6 +6,7 @@
 #include "tools/diagnose/evidence_text.h"
 #include "tools/diagnose/judge.h"
 #include "tools/diagnose/next_experiment.h"
+#include "tools/diagnose/quality.h"
 #include "tools/diagnose/rollout_errors.h"
 #include "tools/diagnose/where.h"
 
@@ -238,7 +239,11 @@ void Diagnosis::describe() {
 Verdict diagnose(const std::vector<DataSet>& data_sets, const DiagnoseOptions& options) {
   const auto model = make_rig_model(data_sets);
   try {
-    return Diagnosis(*model, options).run();
+    Verdict verdict = Diagnosis(*model, options).run();
+    for (const DataSet& data_set : data_sets) {
+      for (QualityNote& note : check_quality(data_set)) verdict.quality.push_back(std::move(note));
+    }
+    return verdict;
   } catch (const SearchStopped&) {
     return {};
   }
