@@ -1,7 +1,6 @@
 // The rig of some data sets.
 #include "tools/diagnose/pendulum_model.h"
 #include "tools/diagnose/press_model.h"
-#include "tools/diagnose/press_model.h"
 #include "tools/diagnose/rig_model.h"
 #include "tools/run/errors.h"
 
