@@ -56,6 +56,7 @@ int main(int argc, char** argv) {
   add_log_command(app, invocation);
   add_replay_command(app, invocation);
   add_compare_command(app, invocation);
+  add_conceal_command(app, invocation);
   add_version_command(app, invocation);
 
   try {
