@@ -10,6 +10,8 @@ namespace {
 
 constexpr int kMostSteps = 12;
 constexpr double kGoodEnough = 1.0;
+/// The same for the rival and for what it must stand in for.
+constexpr double kStep_s = 5e-4;
 
 /// Doubts first, in their sigmas; then the rival's numbers, each in units of its first value.
 struct Candidate {
@@ -27,12 +29,14 @@ struct Candidate {
     }
   }
 
-  Eigen::VectorXd run() const { return whitened(plan, run_plan(plan, {rival})); }
+  Eigen::VectorXd run() const { return whitened(plan, run_plan(plan, {rival}, kStep_s)); }
 };
 
 }  // namespace
 
-double rival_misfit(const ServoPlan& plan, const Eigen::VectorXd& seen, const HiddenEffect& rival) {
+double rival_misfit(const ServoPlan& plan, const std::vector<HiddenEffect>& hidden,
+                    const HiddenEffect& rival) {
+  const Eigen::VectorXd seen = whitened(plan, run_plan(plan, hidden, kStep_s));
   const Eigen::Index doubts = Eigen::Index(plan.doubts.size());
   const Eigen::Index size = doubts + Eigen::Index(rival.parameters.size());
   Candidate best{plan, rival};

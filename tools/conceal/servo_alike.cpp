@@ -83,27 +83,29 @@ ServoPlan draw_plan(const CaseRequest& request, RandomStream& random) {
   return plan;
 }
 
-/// Where winding and supply must look alike the winding is a quick one.
-void adapt(HiddenEffect& effect) {
+/// The numbers of an effect that make it like its rival: a winding that warms at once, few turns
+/// of cogging, friction that grows on the way that is gone.
+void adapt(const ServoPlan& plan, HiddenEffect& effect) {
   if (effect.name == "thermal_derating") effect.find("time_constant").value = 0.08;
   if (effect.name == "cogging_torque") effect.find("order").value = 2.0;
   if (effect.name == "stribeck_friction") effect.find("speed").value = 0.5;
+  if (effect.name == "directional_friction") {
+    double& asymmetry = effect.find("asymmetry").value;
+    asymmetry = std::copysign(asymmetry, plan.exercises[0].goal.rate(2.0));
+  }
 }
 
 bool alike(const ServoPlan& plan, const HiddenInServo& hidden, const CaseRequest& request,
            const ServoScale& scale, RandomStream random) {
-  const Eigen::VectorXd seen = whitened(plan, hidden.signals);
   for (const std::string& name : request.alike) {
     if (name == request.effects[0]) continue;
     double least = 1e30;
     for (int start = 0; start < 3 && least > kSameForAnyTest; ++start) {
-      HiddenEffect rival = draw_servo_effect(name, 0.3, plan, scale, random);
-      adapt(rival);
-      if (name == "directional_friction" && plan.exercises[0].goal.rate(2.0) < 0.0) {
-        rival.find("asymmetry").value = -std::abs(rival.at("asymmetry"));
-      }
-      least = std::min(least, rival_misfit(plan, seen, rival));
+      HiddenEffect rival = draw_servo_effect(name, random.uniform(0.1, 0.3), plan, scale, random);
+      adapt(plan, rival);
+      least = std::min(least, rival_misfit(plan, hidden.effects, rival));
     }
+    if (getenv("DBG")) fprintf(stderr, "%s misfit %g\n", name.c_str(), least);
     if (least > kSameForAnyTest) return false;
   }
   return true;
@@ -146,7 +148,13 @@ CaseData make_servo_alike_case(const std::string& name, const CaseRequest& reque
     if (!all_sane(hidden.signals)) continue;
     set_effort_noise(plan, hidden.signals);
     const ServoScale scale = scale_of(plan, hidden.signals);
-    if (!hide_in_servo(request, plan, scale, stream.branch(2), hidden, adapt)) continue;
+    if (!hide_in_servo(request, plan, scale, stream.branch(2), hidden,
+                       [&plan](HiddenEffect& e) { adapt(plan, e); })) {
+      if (getenv("DBG"))
+        fprintf(stderr, "%s hide fails strength %g\n", request.effects[0].c_str(),
+                hidden.changes.empty() ? 0. : hidden.changes[0].strength);
+      continue;
+    }
     if (!alike(plan, hidden, request, scale, stream.branch(3))) continue;
     return finish_servo_case(name, request, plan, hidden, stream);
   }

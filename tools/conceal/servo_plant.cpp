@@ -48,7 +48,7 @@ void ServoPlant::start_with(double position_rad, double velocity_rad_s) {
 
 bool ServoPlant::sane() const {
   return std::isfinite(state_[kAngle]) && std::abs(state_[kAngle]) < 2.8 &&
-         std::abs(state_[kSpeed]) < 60.0;
+         std::abs(state_[kSpeed]) < 60.0 && terms_.derating * state_[kHeat] < 0.7;
 }
 
 void ServoPlant::advance_to(double t_s) {
@@ -67,8 +67,10 @@ void ServoPlant::advance_to(double t_s) {
 }
 
 double ServoPlant::encoder(double position) const {
-  const double bent =
-      position + terms_.eccentricity * std::sin(position + terms_.eccentricity_phase);
+  double bent = position;
+  if (terms_.eccentricity > 0.0) {
+    bent += terms_.eccentricity * std::sin(position + terms_.eccentricity_phase);
+  }
   const double step = exercise_.encoder_step_rad;
   return step > 0.0 ? step * std::round(bent / step) : bent;
 }
@@ -90,6 +92,7 @@ double ServoPlant::measured_velocity() const {
 }
 
 double ServoPlant::supply_at(double t_s) const {
+  if (exercise_.supply_wander.sines.empty()) return machine_.supply_V;
   return machine_.supply_V + exercise_.supply_wander.value(t_s);
 }
 

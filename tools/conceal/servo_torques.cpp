@@ -78,7 +78,7 @@ void ServoPlant::motor(const State& x, double t_s, Torques& out) const {
 
 /// What becomes of a torque in motor and gear, but for heat and lag.
 double ServoPlant::delivered(double torque, double angle, double speed) const {
-  torque *= 1.0 + terms_.ripple * std::sin(terms_.ripple_order * angle);
+  if (terms_.ripple > 0.0) torque *= 1.0 + terms_.ripple * std::sin(terms_.ripple_order * angle);
   if (torque > 0.0) torque *= 1.0 - terms_.uneven;
   if (torque * speed > 0.0 && terms_.fast_loss > 0.0) {
     torque *=
@@ -93,7 +93,10 @@ double ServoPlant::delivered(double torque, double angle, double speed) const {
 /// Torque on the motor side by angle, speed and time that no law commands.
 double ServoPlant::extra(const State& x, double t_s) const {
   const double q = x[kAngle], w = x[kSpeed];
-  double torque = terms_.cogging * std::sin(terms_.cogging_order * q + terms_.cogging_phase);
+  double torque = 0.0;
+  if (terms_.cogging > 0.0) {
+    torque += terms_.cogging * std::sin(terms_.cogging_order * q + terms_.cogging_phase);
+  }
   torque -= terms_.drag * w * std::abs(w);
   if (terms_.hum > 0.0) {
     torque += terms_.hum * std::sin(2.0 * std::numbers::pi * terms_.hum_frequency * t_s);
