@@ -1,6 +1,9 @@
+#include <iostream>
 #include <memory>
 
 #include "tools/cli/commands.h"
+#include "tools/conceal/examination.h"
+#include "tools/conceal/grade.h"
 #include "tools/conceal/make.h"
 
 namespace hoof::tools {
@@ -38,6 +41,50 @@ void add_make(CLI::App& parent, Invocation& invocation) {
       [&invocation, options] { invocation.run = [options] { conceal::make(*options); }; });
 }
 
+void add_run(CLI::App& parent, Invocation& invocation) {
+  auto options = std::make_shared<conceal::ExaminationOptions>();
+  CLI::App* command = parent.add_subcommand("run", "Have a program diagnose each case of a batch");
+  command->add_option("DIR", options->batch, "Folder of the batch")->required();
+  command->add_option("--answers", options->answers, "Where the answers go, a folder for each case")
+      ->type_name("DIR")
+      ->required();
+  command->add_option("--program", options->program, "Called as PROGRAM diagnose CASE --out DIR")
+      ->type_name("PROGRAM")
+      ->capture_default_str();
+  command->add_option("--jobs", options->jobs, "Cases at once, 1..64")
+      ->type_name("N")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  command->add_option("--only", options->only, "This case alone")->type_name("CASE");
+  command->add_flag("--quiet", options->quiet, "Show no progress");
+  command->footer(
+      "Answers that are there stay: after Ctrl-C the same command goes on where it was.\n"
+      "Example:\n"
+      "  hoof conceal run runs/sealed --answers runs/answers --program build/tools/cli/hoof");
+  command->callback(
+      [&invocation, options] { invocation.run = [options] { conceal::examine(*options); }; });
+}
+
+void add_grade(CLI::App& parent, Invocation& invocation) {
+  auto options = std::make_shared<conceal::GradeOptions>();
+  CLI::App* command =
+      parent.add_subcommand("grade", "Answers against the sealed truth, baselines beside them");
+  command->add_option("DIR", options->batch, "Folder of the batch")->required();
+  command->add_option("ANSWERS", options->answers, "Folder with one folder for each case")
+      ->required();
+  command->add_option("--truth", options->truth, "Where the truth is [DIR/truth.json]")
+      ->type_name("FILE");
+  command->add_option("--csv", options->csv, "Also write one line for each case")
+      ->type_name("FILE");
+  command->footer(
+      "Examples:\n"
+      "  hoof conceal grade runs/sealed runs/answers\n"
+      "  hoof conceal grade runs/sealed runs/answers --csv runs/graded.csv");
+  command->callback([&invocation, options] {
+    invocation.run = [options] { conceal::grade(*options, std::cout); };
+  });
+}
+
 }  // namespace
 
 void add_conceal_command(CLI::App& app, Invocation& invocation) {
@@ -46,8 +93,12 @@ void add_conceal_command(CLI::App& app, Invocation& invocation) {
   command->require_subcommand(1);
   command->footer(
       "Examples:\n"
-      "  hoof conceal make --seed 7 --count 40 --out runs/sealed");
+      "  hoof conceal make --seed 7 --count 40 --out runs/sealed\n"
+      "  hoof conceal run runs/sealed --answers runs/answers\n"
+      "  hoof conceal grade runs/sealed runs/answers");
   add_make(*command, invocation);
+  add_run(*command, invocation);
+  add_grade(*command, invocation);
 }
 
 }  // namespace hoof::tools

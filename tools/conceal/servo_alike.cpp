@@ -77,7 +77,14 @@ ServoPlan draw_plan(const CaseRequest& request, RandomStream& random) {
   wish.plain_supply = wish.start_cold = true;
   wish.stiff = first == "directional_friction";
   ServoPlan plan = draw_servo_plan(wish, random);
-  if (first == "supply_sag") slow_loads(plan, random);
+  plan.exercises.resize(4);
+  plan.files.resize(4);
+  plan.holdout = {false, false, false, true};
+  if (first == "supply_sag") {
+    slow_loads(plan, random);
+    // A winding that is warm takes more current for the same torque, a supply that sags does not.
+    std::erase_if(plan.predicted, [](const ChannelNoise& c) { return c.channel == "current"; });
+  }
   if (first == "parasitic_spring") about_one_angle(plan, random);
   if (first == "directional_friction") one_way(plan, random);
   return plan;
@@ -86,7 +93,15 @@ ServoPlan draw_plan(const CaseRequest& request, RandomStream& random) {
 /// The numbers of an effect that make it like its rival: a winding that warms at once, few turns
 /// of cogging, friction that grows on the way that is gone.
 void adapt(const ServoPlan& plan, HiddenEffect& effect) {
-  if (effect.name == "thermal_derating") effect.find("time_constant").value = 0.08;
+  // Only the first order of what is lost is the same.
+  if (effect.name == "supply_sag") {
+    double& resistance = effect.find("resistance").value;
+    resistance = std::min(resistance, 0.3 * plan.machine.resistance_ohm);
+  }
+  if (effect.name == "thermal_derating") {
+    effect.find("time_constant").value = 0.08;
+    effect.find("fraction").value = std::min(effect.at("fraction"), 0.1);
+  }
   if (effect.name == "cogging_torque") effect.find("order").value = 2.0;
   if (effect.name == "stribeck_friction") effect.find("speed").value = 0.5;
   if (effect.name == "directional_friction") {

@@ -62,6 +62,7 @@ Json intervals_of(const ServoPlan& plan, const std::vector<HiddenEffect>& hidden
       }
     }
   }
+  std::erase_if(series, [](const StrengthSeries& s) { return s.holdout; });
   return hidden.empty() ? Json::array() : to_json(strong_intervals(series));
 }
 
@@ -112,6 +113,10 @@ Json servo_truth(const CaseRequest& request, const ServoPlan& plan,
   truth["strength"] = change.strength;
   truth["channels"] = to_json(change);
   truth["channel"] = change.channels.empty() ? "" : change.main().channel;
+  truth["fit_recordings"] = Json::array();
+  for (std::size_t r = 0; r < plan.files.size(); ++r) {
+    if (!plan.holdout[r]) truth["fit_recordings"].push_back(plan.files[r]);
+  }
   truth["intervals"] = intervals_of(plan, hidden, signals);
   Json parameters = Json::object();
   for (const DoubtfulParameter& d : plan.doubts) parameters[d.key] = plan.machine.*d.field;
