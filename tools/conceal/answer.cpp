@@ -41,7 +41,8 @@ Answer answer_of(const Json& json) {
   a.not_separable = json.value("not_separable", std::vector<std::vector<std::string>>{});
   const Json where = json.value("where", Json::object());
   a.channels = where.value("channels", std::vector<std::string>{});
-  for (const Json& i : where.value("intervals", Json::array())) {
+  const Json intervals = where.value("intervals", Json::array());
+  for (const Json& i : intervals) {
     a.intervals.push_back({i.at("recording"), i.at("start"), i.at("end")});
   }
   const Json fit = json.value("fit", Json::object());

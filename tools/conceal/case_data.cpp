@@ -89,6 +89,7 @@ void write_case(const std::filesystem::path& folder, const std::string& file,
     write_file(folder / recording.file, csv_text(recording));
   }
   write_file(folder / file, dataset_text(data));
+  for (const CaseData& other : data.beside) write_case(folder, "rigid.toml", other);
 }
 
 }  // namespace hoof::tools::conceal

@@ -36,6 +36,7 @@ struct CaseData {
   std::vector<SetupEntry> noise = {}, setup = {};
   std::vector<RecordingData> recordings = {};
   nlohmann::ordered_json truth = {};
+  std::vector<CaseData> beside = {};  ///< data sets of the same machine: rigid.toml
 };
 
 /// Writes dataset.toml and the recordings by the contract's section 1. `file` is the data set's.

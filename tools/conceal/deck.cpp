@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "tools/conceal/alike.h"
+#include "tools/conceal/sand_bench.h"
 #include "tools/conceal/servo_sizes.h"
 
 namespace hoof::tools::conceal {
@@ -42,9 +43,9 @@ class Round {
 
 std::vector<DealtCase> deal_rig(const std::string& rig, int count, RandomStream random) {
   const bool servo = rig == "servo_pendulum";
-  const std::vector<std::string>& listed = servo ? listed_servo_effects() : listed_servo_effects();
+  const std::vector<std::string>& listed = servo ? listed_servo_effects() : listed_sand_effects();
   Round one(listed, random.branch(0)), pair(listed, random.branch(1));
-  Round unlisted(unlisted_servo_effects(), random.branch(2));
+  Round unlisted(servo ? unlisted_servo_effects() : unlisted_sand_effects(), random.branch(2));
   std::vector<double> shares;
   for (const KindShare& k : kKinds) shares.push_back(k.share);
   const std::vector<int> counts = apportion(count, shares);

@@ -93,8 +93,10 @@ class Examination {
     fs::create_directories(answer, error);
     if (error) throw UserError(answer.string() + ": " + error.message());
     std::vector<std::string> words = {options_.program, "diagnose",
-                                      (options_.batch / name / "dataset.toml").string(), "--out",
-                                      answer.string()};
+                                      (options_.batch / name / "dataset.toml").string()};
+    const fs::path beside = options_.batch / name / "rigid.toml";
+    if (fs::exists(beside)) words.push_back(beside.string());
+    words.insert(words.end(), {"--out", answer.string()});
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);

@@ -10,6 +10,7 @@
 
 #include "tools/conceal/alike.h"
 #include "tools/conceal/deck.h"
+#include "tools/conceal/sand_case.h"
 #include "tools/conceal/servo_case.h"
 #include "tools/run/errors.h"
 #include "tools/run/output_file.h"
@@ -25,6 +26,7 @@ using Json = nlohmann::ordered_json;
 
 CaseData make_case(const std::string& name, const DealtCase& dealt, const RandomStream& random) {
   if (dealt.request.kind == "not_decidable") return make_alike_case(name, dealt, random);
+  if (dealt.rig == "plate_sand") return make_sand_case(name, dealt.request, random);
   return make_servo_case(name, dealt.request, random);
 }
 

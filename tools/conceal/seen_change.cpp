@@ -57,7 +57,7 @@ Sensitivities sensitivities(const ServoPlan& plan, const std::vector<HiddenEffec
   return out;
 }
 
-SeenChange seen_change(const ServoPlan& plan, const Eigen::VectorXd& change,
+SeenChange seen_change(const std::vector<std::string>& channels, const Eigen::VectorXd& change,
                        const Sensitivities& explained) {
   const Eigen::MatrixXd& a = explained.columns;
   Eigen::MatrixXd normal = a.transpose() * a;
@@ -66,16 +66,22 @@ SeenChange seen_change(const ServoPlan& plan, const Eigen::VectorXd& change,
   const Eigen::VectorXd shift = normal.ldlt().solve(a.transpose() * change);
   const Eigen::VectorXd left = change - a * shift;
   SeenChange out;
-  const Eigen::Index per_channel = change.size() / Eigen::Index(plan.predicted.size());
-  for (std::size_t i = 0; i < plan.predicted.size(); ++i) {
+  const Eigen::Index per_channel = change.size() / Eigen::Index(channels.size());
+  for (std::size_t i = 0; i < channels.size(); ++i) {
     const Eigen::Index from = Eigen::Index(i) * per_channel;
     const double root = std::sqrt(double(per_channel));
-    out.channels.push_back({plan.predicted[i].channel,
-                            change.segment(from, per_channel).norm() / root,
+    out.channels.push_back({channels[i], change.segment(from, per_channel).norm() / root,
                             left.segment(from, per_channel).norm() / root});
   }
   out.strength = left.norm();
   return out;
+}
+
+SeenChange seen_change(const ServoPlan& plan, const Eigen::VectorXd& change,
+                       const Sensitivities& explained) {
+  std::vector<std::string> channels;
+  for (const ChannelNoise& c : plan.predicted) channels.push_back(c.channel);
+  return seen_change(channels, change, explained);
 }
 
 }  // namespace hoof::tools::conceal

@@ -35,6 +35,9 @@ Sensitivities sensitivities(const ServoPlan& plan, const std::vector<HiddenEffec
                             const std::vector<HiddenEffect>& free_effects,
                             const Eigen::VectorXd& base);
 
+/// `channels` have the same number of samples each, one after the other in `change`.
+SeenChange seen_change(const std::vector<std::string>& channels, const Eigen::VectorXd& change,
+                       const Sensitivities& explained);
 SeenChange seen_change(const ServoPlan& plan, const Eigen::VectorXd& change,
                        const Sensitivities& explained);
 

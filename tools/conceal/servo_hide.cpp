@@ -8,7 +8,7 @@ namespace {
 
 /// What is hidden must stand out by this many deviations over the whole data set, after the
 /// nominal parameters have done all they can: less nobody could be blamed for missing.
-constexpr double kLeastStrength = 15.0, kLeastStrengthUnknown = 25.0;
+constexpr double kLeastStrength = 15.0, kLeastStrengthUnknown = 25.0, kLeastStrengthAlike = 9.0;
 constexpr double kLargestShare = 0.5;
 
 /// A position loop that the effect makes ring shows the ringing and little else.
@@ -55,7 +55,9 @@ bool all_sane(const std::vector<ServoSignals>& signals) {
 bool hide_in_servo(const CaseRequest& request, const ServoPlan& plan, const ServoScale& scale,
                    const RandomStream& random, HiddenInServo& hidden,
                    const std::function<void(HiddenEffect&)>& adapt) {
-  const double least = request.kind == "unknown" ? kLeastStrengthUnknown : kLeastStrength;
+  const double least = request.kind == "unknown"         ? kLeastStrengthUnknown
+                       : request.kind == "not_decidable" ? kLeastStrengthAlike
+                                                         : kLeastStrength;
   std::vector<double> shares;
   RandomStream sizes = random.branch(0);
   for (std::size_t i = 0; i < request.effects.size(); ++i) {

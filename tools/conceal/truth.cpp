@@ -74,7 +74,8 @@ std::vector<TruthCase> read_truth(const std::filesystem::path& file,
   }
   try {
     std::vector<TruthCase> cases;
-    for (const Json& one : Json::parse(text).at("cases")) cases.push_back(case_of(one));
+    const Json json = Json::parse(text);
+    for (const Json& one : json.at("cases")) cases.push_back(case_of(one));
     return cases;
   } catch (const Json::exception& e) {
     throw UserError(file.string() + ": " + e.what());
