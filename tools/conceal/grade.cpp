@@ -5,7 +5,9 @@
 #include <map>
 #include <ostream>
 
+#include "tools/conceal/case_reader.h"
 #include "tools/conceal/measures.h"
+#include "tools/conceal/regression.h"
 #include "tools/run/errors.h"
 #include "tools/run/output_file.h"
 
@@ -81,6 +83,20 @@ Picks picks_of(const std::vector<GradedCase>& cases,
     picks.push_back(name.empty() ? std::nullopt : std::optional<Pick>(pick_named(name[0])));
   }
   return picks;
+}
+
+/// Those who look at the recordings themselves, each in its own way.
+void add_regressions(const GradeOptions& options, const std::vector<TruthCase>& cases,
+                     std::vector<Method>& methods) {
+  Method sparse{"sparse", {}}, process{"Gaussian", {}};
+  for (const TruthCase& c : cases) {
+    const RegressionProblem problem =
+        regression_of(read_case(options.batch / c.name / "dataset.toml"));
+    sparse.picks.push_back(pick_named(pick_by_sparse_regression(problem)));
+    process.picks.push_back(pick_named(pick_by_gaussian_process(problem)));
+  }
+  methods.push_back(sparse);
+  methods.push_back(process);
 }
 
 /// Whoever always says what is most often so: of names, the commonest single effect.
@@ -201,6 +217,7 @@ void grade(const GradeOptions& options, std::ostream& out) {
   std::vector<Method> methods = {{"diagnose", tool},
                                  {"AIC", picks_of(cases, pick_by_aic)},
                                  {"BIC", picks_of(cases, pick_by_bic)}};
+  add_regressions(options, truths, methods);
   methods.push_back({"commonest", commonest(truths)});
   print_methods(truths, methods, out);
   print_confusion(truths, tool, out);
