@@ -2,8 +2,8 @@
 //   force = F + strength A min(z / z0, 1)
 //
 // A constant strength over the area: what moist or fine sand bears before depth gives it any. It
-// ramps in over the first z0 = 0.1 mm, so that the force is continuous: less than any press resolves.
-// Pressed only: a plate that is drawn out is not held (force is never tension).
+// ramps in over the first z0 = 0.1 mm, so that the force is continuous: less than any press
+// resolves. Pressed only: a plate that is drawn out is not held (force is never tension).
 #include <algorithm>
 
 #include "sim/effects/effect.h"
