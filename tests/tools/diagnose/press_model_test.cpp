@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <random>
 
 #include "tests/tools/diagnose/press_data.h"
 #include "tools/diagnose/press_recording.h"
@@ -174,9 +175,9 @@ TEST_CASE("height and speed: parabolas exactly, uneven times, missing samples br
     const double t = time_s[i] - 4;
     CHECK(path.time_s[i] == time_s[i] - time_s[0]);
     CHECK(path.height_m[i] == Approx(height_m[i]).margin(1e-12));
-    // A line over 0.1 s on each side: exact in the middle, off by half the window at the ends.
-    const bool inner = i > 15 && i + 15 < time_s.size();
-    CHECK(path.speed_m_s[i] == Approx(0.003 + 0.002 * t).margin(inner ? 1e-5 : 2.5e-4));
+    // Without noise a line over the neighbours: off by half a step at the ends.
+    const bool inner = i > 0 && i + 1 < time_s.size();
+    CHECK(path.speed_m_s[i] == Approx(0.003 + 0.002 * t).margin(inner ? 8e-6 : 2e-5));
   }
   auto holed = height_m;
   for (const std::size_t i : {0u, 50u, 51u, 199u}) holed[i] = NAN;
@@ -186,6 +187,31 @@ TEST_CASE("height and speed: parabolas exactly, uneven times, missing samples br
   }
   const auto dead = tools::press_path(time_s, std::vector<double>(200, NAN));
   CHECK(dead.height_m[100] == 0);
+}
+
+TEST_CASE("a noisy height is smoothed along the path and not across its corner") {
+  std::mt19937_64 random(3);  // noise seed
+  std::normal_distribution<double> normal;
+  for (const double noise_m : {0.0, 2e-5}) {
+    std::vector<double> time_s, true_m, height_m;
+    for (int i = -300; i <= 300; ++i) {
+      time_s.push_back(0.02 * i);
+      true_m.push_back(-0.02 + 0.01 * std::abs(0.02 * i));  // 10 mm/s down, then up
+      height_m.push_back(true_m.back() + noise_m * normal(random));
+    }
+    const auto path = tools::press_path(time_s, height_m);
+    double square_m2 = 0;
+    for (std::size_t i = 0; i < 601; ++i) {
+      square_m2 += std::pow(path.height_m[i] - true_m[i], 2) / 601;
+      CHECK(std::abs(path.height_m[i] - true_m[i]) <= 4.5 * noise_m + 1e-15);
+      const double blurred_s = noise_m > 0 ? 0.1 : 0.02;
+      if (std::abs(time_s[i]) > blurred_s + 1e-9) {
+        CHECK(path.speed_m_s[i] == Approx(time_s[i] < 0 ? 0.01 : -0.01).margin(noise_m * 50));
+      }
+    }
+    // Seven points of a parabola leave the root of 3/7 of the noise.
+    CHECK(std::sqrt(square_m2) <= 0.75 * noise_m + 1e-15);
+  }
 }
 
 TEST_CASE("samples without height or force are not compared; the rest is not disturbed") {
