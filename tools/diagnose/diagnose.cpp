@@ -6,6 +6,7 @@
 #include "tools/diagnose/evidence_text.h"
 #include "tools/diagnose/judge.h"
 #include "tools/diagnose/next_experiment.h"
+#include "tools/diagnose/quality.h"
 #include "tools/diagnose/rollout_errors.h"
 #include "tools/diagnose/where.h"
 
@@ -137,6 +138,10 @@ EffectFinding Diagnosis::finding(const sim::EffectInfo* effect) const {
       }
       finding.parameters.push_back(estimate);
     }
+    for (const RigModel::Counted& c : model_.counted(*effect)) {
+      ParameterEstimate& estimate = finding.parameters[static_cast<std::size_t>(c.parameter)];
+      estimate.value = c.value, estimate.low95 = c.low95, estimate.high95 = c.high95;
+    }
     break;
   }
   return finding;
@@ -234,7 +239,11 @@ void Diagnosis::describe() {
 Verdict diagnose(const std::vector<DataSet>& data_sets, const DiagnoseOptions& options) {
   const auto model = make_rig_model(data_sets);
   try {
-    return Diagnosis(*model, options).run();
+    Verdict verdict = Diagnosis(*model, options).run();
+    for (const DataSet& data_set : data_sets) {
+      for (QualityNote& note : check_quality(data_set)) verdict.quality.push_back(std::move(note));
+    }
+    return verdict;
   } catch (const SearchStopped&) {
     return {};
   }

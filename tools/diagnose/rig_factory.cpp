@@ -1,7 +1,6 @@
 // The rig of some data sets.
-#include <algorithm>
-
 #include "tools/diagnose/pendulum_model.h"
+#include "tools/diagnose/press_model.h"
 #include "tools/diagnose/press_model.h"
 #include "tools/diagnose/rig_model.h"
 #include "tools/run/errors.h"
@@ -24,6 +23,9 @@ std::unique_ptr<RigModel> make_rig_model(const std::vector<DataSet>& data_sets) 
   switch (rig) {
     case RigKind::kServoPendulum:
       return std::make_unique<PendulumModel>(data_sets);
+    case RigKind::kPlateSand:
+    case RigKind::kRigidPress:
+      return std::make_unique<PressModel>(data_sets);
     default:
       throw UserError(data_sets.front().file.string() + ": no model of rig " + rig_name(rig));
   }
