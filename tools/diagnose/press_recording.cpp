@@ -130,7 +130,8 @@ int count_presses(sim::PressPath& path, double surface_height_m, int before) {
   return pressed ? press + 1 : press;
 }
 
-std::vector<bool> on_block(std::span<const double> height_m, std::span<const double> force_N) {
+std::vector<bool> on_block(std::span<const double> time_s, std::span<const double> height_m,
+                           std::span<const double> force_N) {
   double largest_N = 0;
   for (const double force : force_N) {
     if (force > largest_N) largest_N = force;
@@ -143,7 +144,8 @@ std::vector<bool> on_block(std::span<const double> height_m, std::span<const dou
     high_m = std::max(high_m, height_m[i]);
   }
   // Contact itself is a little higher, by noise and by what the rig travels first.
-  const double aloft_m = high_m + 0.5 * (high_m - low_m);
+  const double noise_m = estimate_noise(time_s, height_m);
+  const double aloft_m = high_m + 0.1 * (high_m - low_m) + 4 * noise_m;
   std::vector<bool> bears(force_N.size());
   for (std::size_t i = 0; i < force_N.size(); ++i) {
     const bool aloft = !(force_N[i] > kBearing * largest_N) && height_m[i] > aloft_m;

@@ -22,6 +22,7 @@ sim::PressPath press_path(std::span<const double> time_s, std::span<const double
 int count_presses(sim::PressPath& path, double surface_height_m, int before);
 
 /// Samples of a press on a rigid block in which the plate bears on it.
-std::vector<bool> on_block(std::span<const double> height_m, std::span<const double> force_N);
+std::vector<bool> on_block(std::span<const double> time_s, std::span<const double> height_m,
+                           std::span<const double> force_N);
 
 }  // namespace hoof::tools

@@ -250,6 +250,25 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("the way down to a block is not compared, its noisy first contact is") {
+  std::mt19937_64 random(12);  // noise seed
+  std::normal_distribution<double> normal;
+  std::vector<double> time_s, height_m, force_N;
+  for (int i = 0; i < 400; ++i) {
+    time_s.push_back(0.02 * i);
+    force_N.push_back(i < 50 ? 0.0 : 250 * std::sin(3.14159 * (i - 50) / 350));
+    height_m.push_back(0.05 + (i < 25 ? 0.004 * (25 - i) / 25 : 0.0) - 4e-6 * force_N.back() +
+                       8e-6 * normal(random));
+    force_N.back() += 0.5 * normal(random);
+  }
+  const auto bears = tools::on_block(time_s, height_m, force_N);
+  for (std::size_t i = 0; i < 400; ++i) {
+    INFO(i);
+    if (i < 24) CHECK_FALSE(bears[i]);
+    if (i >= 25) CHECK(bears[i]);
+  }
+}
+
 TEST_CASE("a block's stated height is used where it can be the block's, else not") {
   for (const double stated_m : {0.05, -0.009}) {
     DataSet set = block_set(200);
