@@ -280,6 +280,29 @@ TEST_CASE("a block's stated height is used where it can be the block's, else not
   }
 }
 
+TEST_CASE("notes: what cannot show, and how far presses that should be alike differ") {
+  std::vector<DataSet> sets = {sand_set({{.name = "a.csv", .back_m = 0.01},
+                                         {.name = "b.csv", .deepest_m = 0.02},
+                                         {.name = "c.csv", .diameter_m = 0.05}})};
+  simulate_into(sets, {0, 3e6, 1}, {}, 0, 0, 1);
+  {
+    const PressModel model(sets);
+    CHECK(model.repeat_scatter_N(0.04) < 0.05);
+    CHECK(std::isnan(model.repeat_scatter_N(0.025)));  // one press alone
+  }
+  // Linear in depth: a press that is 10 % stronger is off by 10 % of a force whose rms is
+  // its largest over the root of three; the other one's mean is over the shallower range alone.
+  for (double& force : sets[0].recordings[0].channels["force"]) force *= 1.1;
+  const PressModel model(sets);
+  const double rms_N = 3e6 * 5.0265e-3 * 0.02 / std::sqrt(3.0);
+  CHECK(model.repeat_scatter_N(0.04) == Approx(0.1 * rms_N).epsilon(0.01));
+  std::vector<std::string> texts;
+  for (const auto& note : model.notes()) texts.push_back(note.text);
+  REQUIRE(texts.size() == 2);
+  CHECK_THAT(texts[0], Catch::Contains("rate_dependence cannot show here: one speed"));
+  CHECK_THAT(texts[1], Catch::Contains("b = 0.04 m differ from each other by"));
+}
+
 TEST_CASE("regions: depth, drawn back, fast; each sample of loading or unloading in one of them") {
   const PressModel model({sand_set({{.name = "a.csv", .back_m = 0.01}})});
   const auto conditions = model.conditions(0);
