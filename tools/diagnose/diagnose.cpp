@@ -243,6 +243,7 @@ Verdict diagnose(const std::vector<DataSet>& data_sets, const DiagnoseOptions& o
     for (const DataSet& data_set : data_sets) {
       for (QualityNote& note : check_quality(data_set)) verdict.quality.push_back(std::move(note));
     }
+    for (QualityNote& note : model->notes()) verdict.quality.push_back(std::move(note));
     return verdict;
   } catch (const SearchStopped&) {
     return {};

@@ -8,6 +8,7 @@
 
 #include "sim/effects/effect.h"
 #include "tools/diagnose/data_set.h"
+#include "tools/diagnose/verdict.h"
 
 namespace hoof::tools {
 
@@ -83,6 +84,9 @@ class RigModel {
     std::vector<bool> holds;
   };
   virtual std::vector<Condition> conditions(int recording) const = 0;
+
+  /// What these recordings can tell at most, beside what is wrong with single ones.
+  virtual std::vector<QualityNote> notes() const { return {}; }
 };
 
 /// @throws UserError where the data sets lack a key or channel of the rig, or are of rigs that
