@@ -1,0 +1,119 @@
+#include "tools/diagnose/press_recording.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace hoof::tools {
+namespace {
+
+constexpr std::size_t kSideSamples = 3;
+constexpr double kSideOfSpeed_s = 0.1;
+
+/// Missing values on the straight line between their neighbours; beyond the ends as the ends.
+std::vector<double> bridged(std::span<const double> time_s, std::span<const double> values) {
+  std::vector<double> result(values.begin(), values.end());
+  std::size_t last = values.size();  // last sample that is there
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (std::isnan(values[i])) continue;
+    const std::size_t from = last == values.size() ? 0 : last + 1;
+    for (std::size_t j = from; j < i; ++j) {
+      if (last == values.size()) {
+        result[j] = values[i];
+        continue;
+      }
+      const double share = (time_s[j] - time_s[last]) / (time_s[i] - time_s[last]);
+      result[j] = values[last] + share * (values[i] - values[last]);
+    }
+    last = i;
+  }
+  const double end = last == values.size() ? 0.0 : values[last];
+  for (std::size_t j = last == values.size() ? 0 : last + 1; j < values.size(); ++j) {
+    result[j] = end;
+  }
+  return result;
+}
+
+/// Value and slope at time_s[at] of the polynomial through samples [first, last].
+struct Fitted {
+  double value = 0, slope = 0;
+};
+
+Fitted fit_polynomial(std::span<const double> time_s, std::span<const double> values,
+                      std::size_t at, std::size_t first, std::size_t last, int degree) {
+  const auto count = static_cast<Eigen::Index>(last - first + 1);
+  degree = std::min(degree, static_cast<int>(count) - 1);
+  if (degree < 1) return {values[at], 0};
+  const double scale_s = time_s[last] - time_s[first];
+  Eigen::MatrixXd powers(count, degree + 1);
+  Eigen::VectorXd heights(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const std::size_t sample = first + static_cast<std::size_t>(i);
+    const double x = (time_s[sample] - time_s[at]) / scale_s;
+    for (int power = 0; power <= degree; ++power) powers(i, power) = std::pow(x, power);
+    heights(i) = values[sample] - values[at];
+  }
+  const Eigen::VectorXd fit = powers.colPivHouseholderQr().solve(heights);
+  return {values[at] + fit(0), fit(1) / scale_s};
+}
+
+}  // namespace
+
+sim::PressPath press_path(std::span<const double> time_s, std::span<const double> height_m) {
+  sim::PressPath path;
+  const std::vector<double> heights = bridged(time_s, height_m);
+  const std::size_t count = heights.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    std::size_t first = i - std::min(i, kSideSamples);
+    std::size_t last = std::min(i + kSideSamples, count - 1);
+    const double height = fit_polynomial(time_s, heights, i, first, last, 2).value;
+    while (first > 0 && time_s[i] - time_s[first - 1] <= kSideOfSpeed_s) --first;
+    while (last + 1 < count && time_s[last + 1] - time_s[i] <= kSideOfSpeed_s) ++last;
+    path.time_s.push_back(time_s[i] - time_s[0]);
+    path.height_m.push_back(height);
+    path.speed_m_s.push_back(-fit_polynomial(time_s, heights, i, first, last, 1).slope);
+  }
+  path.press.assign(count, 0);
+  return path;
+}
+
+int count_presses(sim::PressPath& path, double surface_height_m, int before) {
+  double deepest_m = 0;
+  for (const double height_m : path.height_m) {
+    deepest_m = std::max(deepest_m, surface_height_m - height_m);
+  }
+  // A plate that hovers at the surface makes no press.
+  const double counted_m = 0.1 * deepest_m;
+  int press = before;
+  bool pressed = false;  // deep enough since the plate was last out of the sand
+  for (std::size_t i = 0; i < path.height_m.size(); ++i) {
+    const double depth_m = surface_height_m - path.height_m[i];
+    if (pressed && depth_m <= 0) {
+      ++press;
+      pressed = false;
+    }
+    if (deepest_m > 0 && depth_m > counted_m) pressed = true;
+    path.press[i] = press;
+  }
+  return pressed ? press + 1 : press;
+}
+
+std::vector<bool> on_block(std::span<const double> height_m, std::span<const double> force_N) {
+  double largest_N = 0;
+  for (const double force : force_N) {
+    if (force > largest_N) largest_N = force;
+  }
+  constexpr double kBearing = 0.02;  // share of the largest force
+  double highest_m = -INFINITY;      // at which the plate bears
+  for (std::size_t i = 0; i < force_N.size(); ++i) {
+    if (force_N[i] > kBearing * largest_N && height_m[i] > highest_m) highest_m = height_m[i];
+  }
+  std::vector<bool> bears(force_N.size());
+  for (std::size_t i = 0; i < force_N.size(); ++i) {
+    const bool aloft = !(force_N[i] > kBearing * largest_N) && height_m[i] > highest_m;
+    bears[i] = !std::isnan(height_m[i]) && !std::isnan(force_N[i]) && !aloft;
+  }
+  return bears;
+}
+
+}  // namespace hoof::tools
