@@ -28,7 +28,7 @@ std::string shown(double value, const DisplayUnit& unit) {
 }
 
 bool is_missing(const SignalComparison& c) {
-  return c.verdict == Verdict::kOnlyA || c.verdict == Verdict::kOnlyB;
+  return c.verdict == SignalVerdict::kOnlyA || c.verdict == SignalVerdict::kOnlyB;
 }
 
 /// "0.1 mm or 1 %": whichever is more.
@@ -78,10 +78,10 @@ std::vector<std::string> summary(const Comparison& c, const ComparedNames& names
 
 std::string conclusion(const Comparison& c) {
   const auto out = std::count_if(c.signals.begin(), c.signals.end(), [](const auto& s) {
-    return s.verdict != Verdict::kSame && s.verdict != Verdict::kWithin;
+    return s.verdict != SignalVerdict::kSame && s.verdict != SignalVerdict::kWithin;
   });
   const auto same = std::count_if(c.signals.begin(), c.signals.end(),
-                                  [](const auto& s) { return s.verdict == Verdict::kSame; });
+                                  [](const auto& s) { return s.verdict == SignalVerdict::kSame; });
   std::string text = format("%d signals: %d the same, %d within tolerance, %d out or missing",
                             int(c.signals.size()), int(same),
                             int(c.signals.size()) - int(same) - int(out), int(out));
@@ -137,7 +137,7 @@ std::string table_html(const std::vector<const SignalComparison*>& order) {
   for (const std::string& heading : kHeadings) html += element("th", heading, " scope=\"col\"");
   html += "</tr>\n";
   for (const SignalComparison* c : order) {
-    const bool bad = c->verdict != Verdict::kSame && c->verdict != Verdict::kWithin;
+    const bool bad = c->verdict != SignalVerdict::kSame && c->verdict != SignalVerdict::kWithin;
     html += bad ? "<tr class=\"refused\">" : "<tr>";
     for (const std::string& cell : cells(*c)) html += element("td", cell);
     html += "</tr>\n";

@@ -119,9 +119,9 @@ SignalComparison compare_signal(const SignalSeries& a, const SignalSeries& b_as_
     note_difference(c, time_s, a.values[i], other, square_sum);
   }
   if (c.compared > 0) c.rms = std::sqrt(square_sum / double(c.compared));
-  c.verdict = c.outside > 0 || c.compared == 0 ? Verdict::kOut
-              : c.largest > 0                  ? Verdict::kWithin
-                                               : Verdict::kSame;
+  c.verdict = c.outside > 0 || c.compared == 0 ? SignalVerdict::kOut
+              : c.largest > 0                  ? SignalVerdict::kWithin
+                                               : SignalVerdict::kSame;
   return c;
 }
 
@@ -142,17 +142,17 @@ Span span_of(const std::vector<SignalSeries>& all) {
 
 }  // namespace
 
-const char* to_string(Verdict verdict) {
+const char* to_string(SignalVerdict verdict) {
   switch (verdict) {
-    case Verdict::kSame:
+    case SignalVerdict::kSame:
       return "same";
-    case Verdict::kWithin:
+    case SignalVerdict::kWithin:
       return "within";
-    case Verdict::kOut:
+    case SignalVerdict::kOut:
       return "OUT";
-    case Verdict::kOnlyA:
+    case SignalVerdict::kOnlyA:
       return "ONLY IN A";
-    case Verdict::kOnlyB:
+    case SignalVerdict::kOnlyB:
       return "ONLY IN B";
   }
   return "?";
@@ -160,7 +160,7 @@ const char* to_string(Verdict verdict) {
 
 bool Comparison::within() const {
   return !length_differs && std::all_of(signals.begin(), signals.end(), [](const auto& c) {
-    return c.verdict == Verdict::kSame || c.verdict == Verdict::kWithin;
+    return c.verdict == SignalVerdict::kSame || c.verdict == SignalVerdict::kWithin;
   });
 }
 
@@ -209,14 +209,14 @@ Comparison compare(const std::vector<SignalSeries>& a, const std::vector<SignalS
     } else {
       result.signals.push_back({});
       result.signals.back().name = series.name;
-      result.signals.back().verdict = Verdict::kOnlyA;
+      result.signals.back().verdict = SignalVerdict::kOnlyA;
     }
   }
   for (const SignalSeries& series : b) {
     if (find(a, series.name) != nullptr) continue;
     result.signals.push_back({});
     result.signals.back().name = series.name;
-    result.signals.back().verdict = Verdict::kOnlyB;
+    result.signals.back().verdict = SignalVerdict::kOnlyB;
   }
   return result;
 }

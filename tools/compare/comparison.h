@@ -10,12 +10,12 @@
 
 namespace hoof::tools {
 
-enum class Verdict { kSame, kWithin, kOut, kOnlyA, kOnlyB };
-const char* to_string(Verdict verdict);
+enum class SignalVerdict { kSame, kWithin, kOut, kOnlyA, kOnlyB };
+const char* to_string(SignalVerdict verdict);
 
 struct SignalComparison {
   std::string name;
-  Verdict verdict = Verdict::kSame;
+  SignalVerdict verdict = SignalVerdict::kSame;
   Tolerance tolerance;
   std::size_t compared = 0;  // moments
   std::size_t outside = 0;   // of them out of tolerance

@@ -215,6 +215,8 @@ void PendulumModel::choose_correction(Run& run) const {
   for (int i = 0; i < 2000; ++i) {
     P = A * P * A.transpose() + Q;
     gain = P.col(0) / (P(0, 0) + position * position);
+    run.wander_rad = std::sqrt(P(0, 0));
+    run.wander_rad_s = std::sqrt(P(1, 1));
     P -= gain * P.row(0);
   }
   run.correction = {gain[0], gain[1]};
@@ -227,6 +229,11 @@ double PendulumModel::stated_noise(const DataSet& data_set, const std::string& c
 
 double PendulumModel::stated_noise(int index, const std::string& channel) const {
   return stated_noise(*runs_[index].data_set, channel);
+}
+
+double PendulumModel::input_noise(int index, const std::string& channel) const {
+  const Run& run = runs_[index];
+  return channel == "position" ? run.wander_rad : channel == "velocity" ? run.wander_rad_s : 0;
 }
 
 void PendulumModel::choose_effects() {

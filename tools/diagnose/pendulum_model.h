@@ -21,6 +21,7 @@ class PendulumModel final : public RigModel {
     return runs_[index].channels;
   }
   double stated_noise(int recording, const std::string& channel) const override;
+  double input_noise(int recording, const std::string& channel) const override;
   const std::vector<DoubtfulValue>& doubtful() const override { return doubtful_; }
   const std::vector<const sim::EffectInfo*>& effects() const override { return effects_; }
   double unit_of(const sim::EffectParameter& parameter) const override;
@@ -36,6 +37,7 @@ class PendulumModel final : public RigModel {
     sim::PendulumSettings settings;  // as stated
     sim::PendulumStart start;
     sim::PendulumCorrection correction;
+    double wander_rad = 0, wander_rad_s = 0;  // 1-sigma of the corrected state before a sample
     std::vector<std::string> channels;
     double longest_step_s = 0;
     std::map<std::string, int> doubts;  // key of the setup to index in doubtful_

@@ -48,6 +48,10 @@ class RigModel {
   /// Stated 1-sigma noise of a channel of a recording; 0 where the data set states none.
   virtual double stated_noise(int recording, const std::string& channel) const = 0;
 
+  /// 1-sigma that a perfect model leaves in a corrected rollout beside the sensor's noise, from
+  /// noise of the inputs; 0 where inputs are exact.
+  virtual double input_noise(int /*recording*/, const std::string& /*channel*/) const { return 0; }
+
   virtual const std::vector<DoubtfulValue>& doubtful() const = 0;
   /// Those that can act on this rig with these recordings, stand-ins for unlisted physics included.
   virtual const std::vector<const sim::EffectInfo*>& effects() const = 0;

@@ -55,7 +55,7 @@ TEST_CASE("a difference just inside passes, just outside is found at its moment,
     options.tolerances = {parse_tolerance_rule("fz_N=0.5")};
     const Comparison inside = compare({a}, {off(0.499)}, options);
     CHECK(inside.within());
-    CHECK(inside.signals[0].verdict == Verdict::kWithin);
+    CHECK(inside.signals[0].verdict == SignalVerdict::kWithin);
     CHECK(inside.signals[0].largest == Approx(0.499));
     const Comparison outside = compare({a}, {off(0.501)}, options);
     CHECK_FALSE(outside.within());
@@ -69,7 +69,7 @@ TEST_CASE("a difference just inside passes, just outside is found at its moment,
 
 TEST_CASE("equal ones are the same; other sampling of one curve is within") {
   const auto a = series("x_m", wave);
-  CHECK(compare({a}, {a}, {}).signals[0].verdict == Verdict::kSame);
+  CHECK(compare({a}, {a}, {}).signals[0].verdict == SignalVerdict::kSame);
   // Between samples 7 ms apart a line is off by at most f'' h^2 / 8 = 90 * 49e-6 / 8 = 5.5e-4.
   CompareOptions options;
   options.tolerances = {parse_tolerance_rule("x_m=5.6e-4")};
@@ -103,7 +103,7 @@ TEST_CASE("whole numbers and texts hold their value and allow nothing") {
   SignalSeries a{"phase_name", true, {0, 1, 2, 3}, {0, 0, 1, 1}, {"lowered", "loaded"}};
   SignalSeries b{"phase_name", true, {0, 1, 2, 3}, {0, 0, 0, 1}, {"lowered", "loaded"}};
   const Comparison c = compare({a}, {b}, {});
-  CHECK(c.signals[0].verdict == Verdict::kOut);
+  CHECK(c.signals[0].verdict == SignalVerdict::kOut);
   CHECK(*c.signals[0].first_outside_s == 2);
   // The same texts under other numbers are the same.
   SignalSeries renumbered{"phase_name", true, {0, 1, 2, 3}, {1, 1, 0, 0}, {"loaded", "lowered"}};
@@ -114,8 +114,8 @@ TEST_CASE("missing signals, not-a-number and another length are differences") {
   const auto a = series("x_m", wave), other = series("y_m", wave);
   const Comparison missing = compare({a, other}, {a}, {});
   CHECK_FALSE(missing.within());
-  CHECK(missing.signals[1].verdict == Verdict::kOnlyA);
-  CHECK(compare({a}, {a, other}, {}).signals[1].verdict == Verdict::kOnlyB);
+  CHECK(missing.signals[1].verdict == SignalVerdict::kOnlyA);
+  CHECK(compare({a}, {a, other}, {}).signals[1].verdict == SignalVerdict::kOnlyB);
 
   auto broken = a;
   broken.values[500] = std::nan("");
@@ -127,7 +127,7 @@ TEST_CASE("missing signals, not-a-number and another length are differences") {
   shorter.time_s.resize(1900), shorter.values.resize(1900);
   const Comparison c = compare({a}, {shorter}, {});
   CHECK(c.length_differs);
-  CHECK(c.signals[0].verdict == Verdict::kSame);
+  CHECK(c.signals[0].verdict == SignalVerdict::kSame);
   CHECK_FALSE(c.within());
 }
 

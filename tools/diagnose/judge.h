@@ -1,0 +1,34 @@
+// From fits to probabilities: none, unknown, every effect, pairs.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tools/diagnose/fitter.h"
+#include "tools/diagnose/search.h"
+
+namespace hoof::tools {
+
+/// What a hypothesis achieved, relative to the nominal model.
+struct Standing {
+  const Fit* fit = nullptr;
+  bool listed = true;       // no stand-in for unlisted physics
+  double evidence = 0;      // log evidence of the fit recordings
+  double holdout_gain = 0;  // log predictive density of the held-out ones
+  double explained = 0;  // share of the log likelihood between nominal and bare noise; 1: all of it
+  double probability = 0;
+};
+
+struct Judgement {
+  std::vector<Standing> standings;          // the most probable first
+  double none = 0, unknown = 0;             // probabilities
+  std::map<std::string, double> marginals;  // of each listed effect
+  /// Log likelihood that lies between the nominal model and bare noise, per independent sample.
+  double misfit = 0;
+  double best_explained = 0;  // of the most probable listed hypothesis
+};
+
+Judgement judge(const Fitter& fitter, const SearchResult& result);
+
+}  // namespace hoof::tools
