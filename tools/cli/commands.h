@@ -11,12 +11,14 @@ namespace hoof::tools {
 void add_bed_command(CLI::App& app, Invocation& invocation);
 void add_compare_command(CLI::App& app, Invocation& invocation);
 void add_dbc_command(CLI::App& app, Invocation& invocation);
+void add_diagnose_command(CLI::App& app, Invocation& invocation);
 void add_faults_command(CLI::App& app, Invocation& invocation);
 void add_log_command(CLI::App& app, Invocation& invocation);
 void add_order_command(CLI::App& app, Invocation& invocation);  // hoof command
 void add_param_command(CLI::App& app, Invocation& invocation);
 void add_replay_command(CLI::App& app, Invocation& invocation);
 void add_report_command(CLI::App& app, Invocation& invocation);
+void add_simulate_command(CLI::App& app, Invocation& invocation);
 void add_sinkage_command(CLI::App& app, Invocation& invocation);
 void add_study_command(CLI::App& app, Invocation& invocation);
 void add_terrain_command(CLI::App& app, Invocation& invocation);

@@ -56,6 +56,8 @@ int main(int argc, char** argv) {
   add_log_command(app, invocation);
   add_replay_command(app, invocation);
   add_compare_command(app, invocation);
+  add_diagnose_command(app, invocation);
+  add_simulate_command(app, invocation);
   add_version_command(app, invocation);
 
   try {

@@ -15,15 +15,19 @@ void require_finite(const nlohmann::ordered_json& value, const std::string& key)
       require_finite(item.value(), key.empty() ? item.key() : key + "." + item.key());
     }
   } else if (value.is_number_float() && !std::isfinite(value.get<double>())) {
-    throw CannotFinish("result.json: " + key + " is not a finite number");
+    throw CannotFinish("result to be written: " + key + " is not a finite number");
   }
 }
 
 }  // namespace
 
-void write_result_json(const std::filesystem::path& path, const nlohmann::ordered_json& result) {
+std::string result_json_text(const nlohmann::ordered_json& result) {
   require_finite(result, "");
-  write_file(path, result.dump(2) + "\n");
+  return result.dump(2) + "\n";
+}
+
+void write_result_json(const std::filesystem::path& path, const nlohmann::ordered_json& result) {
+  write_file(path, result_json_text(result));
 }
 
 }  // namespace hoof::tools

@@ -1,7 +1,5 @@
 #include "tests/tools/diagnose/data_files.h"
 
-#include <stdlib.h>
-
 #include <catch2/catch.hpp>
 
 #include "tools/run/output_file.h"
@@ -10,25 +8,14 @@ namespace hoof::tests {
 
 namespace fs = std::filesystem;
 
-DataFolder::DataFolder() {
-  std::string name = (fs::temp_directory_path() / "hoof-diagnose-XXXXXX").string();
-  REQUIRE(mkdtemp(name.data()) != nullptr);
-  path_ = name;
-}
-
-DataFolder::~DataFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
-
 fs::path DataFolder::write(const std::string& name, const std::string& text) const {
-  fs::create_directories((path_ / name).parent_path());
-  tools::write_file(path_ / name, text);
-  return path_ / name;
+  fs::create_directories((path() / name).parent_path());
+  tools::write_file(path() / name, text);
+  return path() / name;
 }
 
 std::string DataFolder::shortened(std::string text) const {
-  const std::string prefix = path_.string() + "/";
+  const std::string prefix = path().string() + "/";
   for (std::size_t at = 0; (at = text.find(prefix)) != std::string::npos;) {
     text.erase(at, prefix.size());
   }

@@ -4,24 +4,20 @@
 #include <filesystem>
 #include <string>
 
+#include "tests/tools/run/scratch_folder.h"
+
 namespace hoof::tests {
 
-/// A folder that goes with its object.
 class DataFolder {
  public:
-  DataFolder();
-  ~DataFolder();
-  DataFolder(const DataFolder&) = delete;
-  DataFolder& operator=(const DataFolder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
+  const std::filesystem::path& path() const { return scratch_.path(); }
   std::filesystem::path write(const std::string& name, const std::string& text) const;
 
   /// `text` without the folder in front of file names.
   std::string shortened(std::string text) const;
 
  private:
-  std::filesystem::path path_;
+  ScratchFolder scratch_;
 };
 
 /// `text` with the first `from` replaced; fails the test where there is none.

@@ -1,0 +1,18 @@
+// The files of hoof diagnose.
+#pragma once
+
+#include <vector>
+
+#include "tools/diagnose/answer_folder.h"
+#include "tools/diagnose/data_set.h"
+#include "tools/diagnose/verdict.h"
+
+namespace hoof::tools {
+
+inline constexpr char kVerdictFile[] = "verdict.json";
+
+/// verdict.json, improved.toml, residuals.csv and hypotheses.csv.
+void write_answer(const Verdict& verdict, const std::vector<DataSet>& data_sets,
+                  AnswerFolder& folder);
+
+}  // namespace hoof::tools
