@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tools/diagnose/evidence_text.h"
+#include "tools/diagnose/foot_effects.h"
 #include "tools/diagnose/judge.h"
 #include "tools/diagnose/next_experiment.h"
 #include "tools/diagnose/rollout_errors.h"
@@ -234,7 +235,9 @@ void Diagnosis::describe() {
 Verdict diagnose(const std::vector<DataSet>& data_sets, const DiagnoseOptions& options) {
   const auto model = make_rig_model(data_sets);
   try {
-    return Diagnosis(*model, options).run();
+    Verdict verdict = Diagnosis(*model, options).run();
+    name_joints(verdict);
+    return verdict;
   } catch (const SearchStopped&) {
     return {};
   }

@@ -1,6 +1,7 @@
 // The rig of some data sets.
 #include <algorithm>
 
+#include "tools/diagnose/foot_model.h"
 #include "tools/diagnose/pendulum_model.h"
 #include "tools/diagnose/rig_model.h"
 #include "tools/run/errors.h"
@@ -19,6 +20,8 @@ std::unique_ptr<RigModel> make_rig_model(const std::vector<DataSet>& data_sets) 
   switch (rig) {
     case RigKind::kServoPendulum:
       return std::make_unique<PendulumModel>(data_sets);
+    case RigKind::kFootHil:
+      return std::make_unique<FootModel>(data_sets);
     default:
       throw UserError(data_sets.front().file.string() + ": no model of rig " + rig_name(rig));
   }
