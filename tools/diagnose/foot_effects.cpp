@@ -84,9 +84,12 @@ void FootEffects::add_all(const RunSettings& run,
   }
 }
 
-std::optional<sim::Joint> FootEffects::joint(const sim::EffectInfo* info) const {
+std::optional<sim::Joint> FootEffects::joint(const ActiveEffect& effect) const {
   for (const Hypothesis& known : hypotheses_) {
-    if (&known.info == info) return known.joint;
+    if (&known.info == effect.info) return known.joint;
+  }
+  for (const sim::Joint joint : kJoints) {
+    if (effect.joint == sim::joint_name(joint)) return joint;
   }
   return {};
 }
@@ -124,7 +127,12 @@ void name_joints(Verdict& verdict) {
       effects.begin(), effects.end(),
       [](const EffectFinding& a, const EffectFinding& b) { return a.probability > b.probability; });
   verdict.effects = std::move(effects);
-  for (std::string& name : verdict.named) name = plain_effect_name(name);
+  std::vector<std::string> named;
+  for (const std::string& name : verdict.named) {
+    const std::string one = plain_effect_name(name);
+    if (std::find(named.begin(), named.end(), one) == named.end()) named.push_back(one);
+  }
+  verdict.named = std::move(named);
   for (auto& set : verdict.not_separable) {
     std::vector<std::string> plain;
     for (const std::string& name : set) {

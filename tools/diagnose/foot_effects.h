@@ -9,6 +9,7 @@
 
 #include "sim/effects/effect.h"
 #include "sim/multibody/rig.h"
+#include "tools/diagnose/rig_model.h"
 #include "tools/diagnose/verdict.h"
 #include "tools/experiment/run_settings.h"
 
@@ -28,8 +29,8 @@ class FootEffects {
   /// In the order in which they were made; they stay where they are.
   const std::vector<const sim::EffectInfo*>& list() const { return list_; }
 
-  /// Of an effect of this list, or of the catalogue: there without a joint.
-  std::optional<sim::Joint> joint(const sim::EffectInfo* info) const;
+  /// Of an effect of this list; of one of the catalogue as a file names it, none for all drives.
+  std::optional<sim::Joint> joint(const ActiveEffect& effect) const;
   /// What torques among an effect's parameters are told in.
   double unit_of(const sim::EffectParameter& parameter) const;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "firmware/protocol/dictionary.h"
 #include "tools/diagnose/noise.h"
@@ -24,15 +25,19 @@ bool of_a_drive(const std::string& channel) {
   return channel != "depth" && !channel.starts_with("ground_");
 }
 
-bool any_number(const std::vector<double>& values) {
-  return std::any_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+bool moves(const std::vector<double>& values) {
+  double first = std::numeric_limits<double>::quiet_NaN();
+  for (const double v : values) {
+    if (std::isnan(first)) first = v;
+    if (v != first && std::isfinite(v)) return true;
+  }
+  return false;
 }
 
 /// Depth of a gait is the foot's own height, which no bench measures.
 bool compared(const FootSession& session, const std::string& channel) {
   if (channel == "depth" && !session.run.is_sinkage()) return false;
-  const auto& values = session.signals.channel(channel);
-  return any_number(values) && resolution(values) > 0;
+  return moves(session.signals.channel(channel));
 }
 
 std::string short_text(double value) {
@@ -124,7 +129,7 @@ Prediction FootModel::predict(int index, std::span<const double> setup,
   RunSettings settings = run.session.run;
   for (const auto& [key, doubt] : run.doubts) *find_setup_number(settings, key) = setup[doubt];
   for (const ActiveEffect& effect : effects) {
-    RunEffect added{effect.info, effect.values, effects_.joint(effect.info)};
+    RunEffect added{effect.info, effect.values, effects_.joint(effect)};
     if (misfit(settings, added).empty()) settings.effects.push_back(std::move(added));
   }
   const FootSignals told = replay_session(settings, run.session.script);

@@ -22,6 +22,7 @@ struct DoubtfulValue {
 struct ActiveEffect {
   const sim::EffectInfo* info = nullptr;
   std::vector<double> values;  // in the order of info->parameters
+  std::string joint = {};      // of an effect at one joint of the foot, as a file names it
 };
 
 /// What a model is asked for.
