@@ -21,7 +21,6 @@ double soil_force_N(const SoilContact& contact, SoilEffects effects) {
   if (contact.depth_m < contact.deepest_m && !effects.empty()) {
     SoilContact deepest = contact;
     deepest.depth_m = contact.deepest_m;
-    deepest.speed_m_s = 0;
     const double deepest_N = resistance_N(deepest, effects);
     for (const auto& effect : effects) {
       force_N = effect->unloading_N(force_N, deepest_N, contact);

@@ -39,7 +39,7 @@ class SoilEffect {
   /// 2. What becomes of the whole resistance.
   virtual double force_N(double force_N, const SoilContact& /*contact*/) const { return force_N; }
   /// 3. Only while the contact is above its deepest point.
-  /// @param deepest_N what stages 1 and 2 give there, at rest
+  /// @param deepest_N what stages 1 and 2 give there, at the same speed: loading again joins on
   virtual double unloading_N(double force_N, double /*deepest_N*/,
                              const SoilContact& /*contact*/) const {
     return force_N;

@@ -35,6 +35,11 @@ class Signal {
     const double share = (t_s - time_s_[i]) / (time_s_[i + 1] - time_s_[i]);
     return values_[i] + share * (values_[i + 1] - values_[i]);
   }
+  std::size_t nearest(double t_s) {
+    seek(t_s);
+    const std::size_t i = cursor_;
+    return i + 1 < time_s_.size() && time_s_[i + 1] - t_s < t_s - time_s_[i] ? i + 1 : i;
+  }
   double held_at(double t_s) {
     seek(t_s);
     return values_[cursor_];
@@ -193,7 +198,7 @@ void Pendulum::prepare_gear() {
 }
 
 void Pendulum::read_goals(double t_s) {
-  bool lost = false;
+  bool lost = in_.lost != nullptr && (*in_.lost)[goal_.nearest(t_s)];
   for (JointEffect* effect : stages_.goal) lost = effect->goal_lost() || lost;
   if (lost) return;
   const double t = std::max(t_s - delay_s_, in_.time_s.front());

@@ -55,6 +55,9 @@ struct PendulumInputs {
   std::span<const double> supply_V;
   std::span<const double> torque_Nm;  // of the law kTorque
 
+  /// Where known: at which samples the drive went without a new goal; null: all arrived.
+  const std::vector<bool>* lost = nullptr;
+
   /// Measured, for corrections only.
   std::span<const double> position_rad;
 };

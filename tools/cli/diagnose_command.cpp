@@ -90,6 +90,7 @@ void add_diagnose_command(CLI::App& app, Invocation& invocation) {
   command->add_option("--out", request->out, "Folder for the answer")->required()->type_name("DIR");
   command->add_option("--seed", request->seed, "Of the search")
       ->type_name("N")
+      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command->add_option("--threads", request->threads, "1..1024; the answer is the same for any")
       ->type_name("N")

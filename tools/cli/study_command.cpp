@@ -3,6 +3,7 @@
 
 #include "tools/cli/commands.h"
 #include "tools/cli/fault_matrix.h"
+#include "tools/study/drop_law.h"
 #include "tools/study/study.h"
 
 namespace hoof::tools {
@@ -65,11 +66,24 @@ CLI::App* add_study(CLI::App& parent, Invocation& invocation, const char* name, 
   return command;
 }
 
+void add_drop_law(CLI::App& parent, Invocation& invocation) {
+  auto out = std::make_shared<std::string>();
+  CLI::App* command = parent.add_subcommand(
+      "drop-law", "The paper's drop test: does L = 2 e H hold, or is tangential speed retained?");
+  command->add_option("--out", *out, "Folder for laws.csv and rows.csv [none]")->type_name("DIR");
+  command->footer(
+      "Fits each law to table 3 of the source paper and predicts each row from the others.\n"
+      "Examples:\n"
+      "  hoof study drop-law\n"
+      "  hoof study drop-law --out runs/drop-law");
+  command->callback([&invocation, out] { invocation.run = [out] { run_drop_law_study(*out); }; });
+}
+
 }  // namespace
 
 void add_study_command(CLI::App& app, Invocation& invocation) {
-  CLI::App* command =
-      app.add_subcommand("study", "Which bed, step and box may be believed; faults in every mode");
+  CLI::App* command = app.add_subcommand(
+      "study", "Which bed, step and box may be believed; faults in every mode; laws");
   command->require_subcommand(1);
   command->footer(
       "Examples:\n"
@@ -77,7 +91,8 @@ void add_study_command(CLI::App& app, Invocation& invocation) {
       "  hoof study resolution --full --threads 2    to the paper's grains, an hour\n"
       "  hoof study box --bodies foot --beds 3\n"
       "  hoof study time-step --scales 1\n"
-      "  hoof study faults                           every fault in every mode, a minute");
+      "  hoof study faults                           every fault in every mode, a minute\n"
+      "  hoof study drop-law                         the paper's drop test, at once");
   add_study(*command, invocation, "resolution",
             "Spined against plain, open against closed: effect over the scatter of beds",
             run_resolution_study);
@@ -89,6 +104,7 @@ void add_study_command(CLI::App& app, Invocation& invocation) {
   add_study(*command, invocation, "box", "Length, width and depth of the box against the force",
             run_box_study);
   add_fault_matrix(*command, invocation);
+  add_drop_law(*command, invocation);
 }
 
 }  // namespace hoof::tools

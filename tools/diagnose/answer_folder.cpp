@@ -24,6 +24,7 @@ constexpr char kPartial[] = ".hoof-partial-";
 AnswerFolder::AnswerFolder(const fs::path& folder, std::string last, bool force)
     : folder_(folder), last_(std::move(last)) {
   std::error_code error;
+  if (folder_.empty()) throw UserError("--out: must name a folder");
   if (fs::exists(folder_, error) && !fs::is_directory(folder_, error)) {
     throw UserError("--out " + folder_.string() + ": is not a folder");
   }

@@ -7,6 +7,7 @@
 #include "tools/diagnose/foot_effects.h"
 #include "tools/diagnose/judge.h"
 #include "tools/diagnose/next_experiment.h"
+#include "tools/diagnose/quality.h"
 #include "tools/diagnose/rollout_errors.h"
 #include "tools/diagnose/where.h"
 
@@ -138,6 +139,10 @@ EffectFinding Diagnosis::finding(const sim::EffectInfo* effect) const {
       }
       finding.parameters.push_back(estimate);
     }
+    for (const RigModel::Counted& c : model_.counted(*effect)) {
+      ParameterEstimate& estimate = finding.parameters[static_cast<std::size_t>(c.parameter)];
+      estimate.value = c.value, estimate.low95 = c.low95, estimate.high95 = c.high95;
+    }
     break;
   }
   return finding;
@@ -237,6 +242,10 @@ Verdict diagnose(const std::vector<DataSet>& data_sets, const DiagnoseOptions& o
   try {
     Verdict verdict = Diagnosis(*model, options).run();
     name_joints(verdict);
+    for (const DataSet& data_set : data_sets) {
+      if (data_set.rig == RigKind::kFootHil) continue;  // by our own recorder
+      for (QualityNote& note : check_quality(data_set)) verdict.quality.push_back(std::move(note));
+    }
     return verdict;
   } catch (const SearchStopped&) {
     return {};

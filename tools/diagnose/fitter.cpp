@@ -15,13 +15,20 @@
 namespace hoof::tools {
 namespace {
 
-/// What a residual counts at most, in sigmas: a rollout that fell over must not hide all else.
-constexpr double kLargest = 1e3;
+/// Residuals larger than this many sigmas are bent to grow by their root.
+constexpr double kBend = 10;
+constexpr double kLargest = 1e6;  // where a model runs away
+
+double bent(double r) {
+  const double size = std::abs(r);
+  if (size <= kBend) return r;
+  return std::copysign(std::sqrt(2 * kBend * std::min(size, kLargest) - kBend * kBend), r);
+}
 
 class Cost final : public ceres::CostFunction {
  public:
-  Cost(const Fitter& fitter, const Layout& layout, int residuals)
-      : fitter_(fitter), layout_(layout) {
+  Cost(const Fitter& fitter, const Layout& layout, const Fitter::Weights& weights, int residuals)
+      : fitter_(fitter), layout_(layout), weights_(weights) {
     set_num_residuals(residuals);
     mutable_parameter_block_sizes()->push_back(layout.size());
   }
@@ -29,12 +36,12 @@ class Cost final : public ceres::CostFunction {
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override {
     const Eigen::VectorXd x = Eigen::Map<const Eigen::VectorXd>(parameters[0], layout_.size());
-    const Eigen::VectorXd r = fitter_.residuals(layout_, x);
+    const Eigen::VectorXd r = fitter_.residuals(layout_, x, weights_);
     std::copy(r.data(), r.data() + r.size(), residuals);
     if (jacobians && jacobians[0]) {
       using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
       Eigen::Map<RowMajor>(jacobians[0], r.size(), layout_.size()) =
-          fitter_.jacobian(layout_, x, r);
+          fitter_.jacobian(layout_, x, r, weights_);
     }
     return true;
   }
@@ -42,6 +49,7 @@ class Cost final : public ceres::CostFunction {
  private:
   const Fitter& fitter_;
   const Layout& layout_;
+  const Fitter::Weights& weights_;
 };
 
 }  // namespace
@@ -78,29 +86,43 @@ Prediction Fitter::predict(const Fit& fit, int recording, Rollout rollout) const
   return model_->predict(recording, layout.setup(fit.x), layout.active(fit.x), rollout);
 }
 
-Eigen::VectorXd Fitter::residuals(const Layout& layout, const Eigen::VectorXd& x) const {
+Fitter::Weights Fitter::weights() const {
+  Weights weights;
+  for (const Group& g : groups_) weights.push_back(std::sqrt(g.effective) / g.sigma);
+  return weights;
+}
+
+Fitter::Weights Fitter::roomy_weights(const std::vector<double>& squares, double share) const {
+  Weights weights;
+  for (std::size_t i = 0; i < groups_.size(); ++i) {
+    const Group& g = groups_[i];
+    const double misfit = std::sqrt(squares[i] / std::max(g.samples, 1.0));
+    weights.push_back(1 / std::max(g.noise, share * misfit));
+  }
+  return weights;
+}
+
+Eigen::VectorXd Fitter::residuals(const Layout& layout, const Eigen::VectorXd& x,
+                                  const Weights& weights) const {
   const std::vector<double> setup = layout.setup(x);
   const std::vector<ActiveEffect> active = layout.active(x);
   std::vector<double> all;
   Prediction prediction;
   int predicted = -1;
-  for (const Group& group : groups_) {
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const Group& group = groups_[g];
     if (group.holdout) continue;
     if (group.recording != predicted) {
       prediction = model_->predict(group.recording, setup, active, Rollout::kCorrected);
       predicted = group.recording;
     }
-    const double weight = std::sqrt(group.effective) / group.sigma;
-    const double most = kLargest * std::sqrt(group.effective);
     const std::string& name = model_->channels(group.recording)[group.channel];
     const auto& measured = model_->recording(group.recording).channels.at(name);
     const auto& values = prediction[group.channel];
     for (std::size_t i = 0; i < measured.size(); ++i) {
-      const double difference = (measured[i] - values[i]) * weight;
+      const double difference = (measured[i] - values[i]) * weights[g];
       const bool missing = !std::isfinite(measured[i]);
-      all.push_back(missing                     ? 0
-                    : std::isfinite(difference) ? std::clamp(difference, -most, most)
-                                                : most);
+      all.push_back(missing ? 0 : std::isfinite(difference) ? bent(difference) : bent(kLargest));
     }
   }
   const auto samples = static_cast<Eigen::Index>(all.size());
@@ -113,56 +135,48 @@ Eigen::VectorXd Fitter::residuals(const Layout& layout, const Eigen::VectorXd& x
 }
 
 Eigen::MatrixXd Fitter::jacobian(const Layout& layout, const Eigen::VectorXd& x,
-                                 const Eigen::VectorXd& r) const {
+                                 const Eigen::VectorXd& r, const Weights& weights) const {
   Eigen::MatrixXd J(r.size(), layout.size());
   for (int i = 0; i < layout.size(); ++i) {
     Eigen::VectorXd shifted = x;
     shifted[i] += layout.step(i);
-    J.col(i) = (residuals(layout, shifted) - r) / layout.step(i);
+    J.col(i) = (residuals(layout, shifted, weights) - r) / layout.step(i);
   }
   return J;
 }
 
-Fit Fitter::fit(const Effects& effects, const Eigen::VectorXd& start, int iterations) const {
+double Fitter::objective(const Effects& effects, const Eigen::VectorXd& x,
+                         const Weights& weights) const {
+  return 0.5 * residuals(Layout(*model_, effects), x, weights).squaredNorm();
+}
+
+Fit Fitter::fit(const Effects& effects, const Eigen::VectorXd& start, int iterations,
+                const Weights& weights, double tolerance) const {
   const Layout layout(*model_, effects);
   Fit fit;
   fit.effects = effects;
   fit.x = start;
-  if (layout.size() > 0 && iterations > 0) {
-    const auto count = static_cast<int>(residuals(layout, start).size());
-    ceres::Problem problem;
-    problem.AddResidualBlock(new Cost(*this, layout, count), nullptr, fit.x.data());
-    ceres::Solver::Options options;
-    options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
-    options.max_num_iterations = iterations;
-    options.function_tolerance = 1e-5;
-    options.logging_type = ceres::SILENT;
-    options.num_threads = 1;
-    ceres::Solver::Summary summary;
-    ceres::Solve(options, &problem, &summary);
-    fit.objective = summary.final_cost;
-  } else {
-    fit.objective = 0.5 * residuals(layout, start).squaredNorm();
+  if (layout.size() == 0 || iterations == 0) {
+    fit.objective = objective(effects, start, weights);
+    return fit;
   }
+  const auto count = static_cast<int>(residuals(layout, start, weights).size());
+  ceres::Problem problem;
+  problem.AddResidualBlock(new Cost(*this, layout, weights, count), nullptr, fit.x.data());
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
+  options.max_num_iterations = iterations;
+  options.function_tolerance = tolerance;
+  options.logging_type = ceres::SILENT;
+  options.num_threads = 1;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  fit.objective = summary.final_cost;
   return fit;
 }
 
-void Fitter::judge(Fit& fit) const {
-  const Layout layout(*model_, fit.effects);
-  const Eigen::VectorXd r = residuals(layout, fit.x);
-  const Eigen::MatrixXd J = jacobian(layout, fit.x, r);
-  const int k = layout.size();
-  fit.objective = 0.5 * r.squaredNorm();
-  fit.log_likelihood = -0.5 * r.head(r.size() - k).squaredNorm();
-  fit.log_evidence = -fit.objective;
-  if (k > 0) {
-    const Eigen::MatrixXd H = J.transpose() * J;  // priors are rows of J
-    const Eigen::LDLT<Eigen::MatrixXd> ldlt(H);
-    fit.covariance = ldlt.solve(Eigen::MatrixXd::Identity(k, k));
-    fit.log_evidence -= 0.5 * ldlt.vectorD().array().max(1e-12).log().sum();
-    for (int i = 0; i < k; ++i) fit.log_evidence -= std::log(layout.prior_sigma(i));
-  }
-  fit.squares.clear();
+std::vector<double> Fitter::squares(const Fit& fit) const {
+  std::vector<double> squares;
   Prediction prediction;
   int predicted = -1;
   for (const Group& group : groups_) {
@@ -174,8 +188,31 @@ void Fitter::judge(Fit& fit) const {
     for (const double d : differences(group, prediction[group.channel])) {
       if (std::isfinite(d)) sum += d * d;
     }
-    fit.squares.push_back(sum);
+    squares.push_back(sum);
   }
+  return squares;
+}
+
+void Fitter::judge(Fit& fit) const {
+  const Layout layout(*model_, fit.effects);
+  const Weights w = weights();
+  const Eigen::VectorXd r = residuals(layout, fit.x, w);
+  const Eigen::MatrixXd J = jacobian(layout, fit.x, r, w);
+  const int k = layout.size();
+  fit.objective = 0.5 * r.squaredNorm();
+  fit.log_likelihood = -0.5 * r.head(r.size() - k).squaredNorm();
+  fit.log_evidence = -fit.objective;
+  for (const sim::EffectInfo* effect : fit.effects) {
+    fit.log_evidence -= model_->complexity(*effect);
+  }
+  if (k > 0) {
+    const Eigen::MatrixXd H = J.transpose() * J;  // priors are rows of J
+    const Eigen::LDLT<Eigen::MatrixXd> ldlt(H);
+    fit.covariance = ldlt.solve(Eigen::MatrixXd::Identity(k, k));
+    fit.log_evidence -= 0.5 * ldlt.vectorD().array().max(1e-12).log().sum();
+    for (int i = 0; i < k; ++i) fit.log_evidence -= std::log(layout.prior_sigma(i));
+  }
+  fit.squares = squares(fit);
 }
 
 void for_each_task(int count, int threads, const std::function<void(int)>& task) {

@@ -38,14 +38,26 @@ class Fitter {
   std::vector<Group>& groups() { return groups_; }
   const std::vector<Group>& groups() const { return groups_; }
 
-  /// All residuals of the fit recordings over sigma, times the root of `effective`, and after them
-  /// the priors'. A model that runs away gives large ones.
-  Eigen::VectorXd residuals(const Layout& layout, const Eigen::VectorXd& x) const;
-  Eigen::MatrixXd jacobian(const Layout& layout, const Eigen::VectorXd& x,
-                           const Eigen::VectorXd& r) const;
+  /// What differences are multiplied by, by group: the root of `effective` over sigma.
+  using Weights = std::vector<double>;
+  Weights weights() const;
+  /// The same with room for a misfit: sigma no less than `share` of what `squares` leave.
+  Weights roomy_weights(const std::vector<double>& squares, double share) const;
+
+  /// All residuals of the fit recordings, weighted, and after them the priors'. Beyond kBend they
+  /// grow by the root only: a rollout that went another way must not hide all else.
+  Eigen::VectorXd residuals(const Layout& layout, const Eigen::VectorXd& x,
+                            const Weights& weights) const;
+  Eigen::MatrixXd jacobian(const Layout& layout, const Eigen::VectorXd& x, const Eigen::VectorXd& r,
+                           const Weights& weights) const;
 
   /// Least squares from x. @param iterations at most
-  Fit fit(const Effects& effects, const Eigen::VectorXd& x, int iterations) const;
+  Fit fit(const Effects& effects, const Eigen::VectorXd& x, int iterations, const Weights& weights,
+          double tolerance = 1e-5) const;
+  /// Half the sum of squares at x.
+  double objective(const Effects& effects, const Eigen::VectorXd& x, const Weights& weights) const;
+  /// Sum of squared differences by group, SI.
+  std::vector<double> squares(const Fit& fit) const;
   /// Covariance, evidence, squares by group at fit.x.
   void judge(Fit& fit) const;
 

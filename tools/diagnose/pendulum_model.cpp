@@ -138,6 +138,7 @@ void PendulumModel::add(const DataSet& data_set, const Recording& recording) {
                 channel(recording, "enable"),
                 channel(recording, "supply_voltage"),
                 law == DriveLaw::kTorque ? channel(recording, "torque") : std::span<const double>(),
+                nullptr,
                 channel(recording, "position")};
   for (const char* name : {"position", "velocity", "torque", "current"}) {
     if (recording.has(name) && !is_input(name, law)) run.channels.push_back(name);
@@ -148,6 +149,7 @@ void PendulumModel::add(const DataSet& data_set, const Recording& recording) {
   add_doubts(run);
   estimate_start(run);
   choose_correction(run);
+  look_for_losses(run);
   runs_.push_back(std::move(run));
 }
 
@@ -185,7 +187,9 @@ void PendulumModel::estimate_start(Run& run) const {
   const Recording& recording = *run.recording;
   const auto position = channel(recording, "position");
   const auto velocity = channel(recording, "velocity");
-  run.start.position_rad = std::isfinite(position.front()) ? position.front() : 0;
+  const auto first =
+      std::find_if(position.begin(), position.end(), [](double v) { return std::isfinite(v); });
+  run.start.position_rad = first == position.end() ? 0 : *first;
   const bool measured = !velocity.empty() && std::isfinite(velocity.front());
   run.start.velocity_rad_s =
       measured ? velocity.front() : first_slope(recording.time_s, position, kStartSpan_s);
@@ -288,6 +292,93 @@ void PendulumModel::measure_effort() {
   }
 }
 
+/// From the torque that was commanded: it follows the goal that the drive had.
+void PendulumModel::look_for_losses(Run& run) const {
+  const Recording& recording = *run.recording;
+  const PendulumSettings& s = run.settings;
+  const bool current = !recording.has("torque") && s.kt_Nm_A > 0;
+  const std::string name = current ? "current" : "torque";
+  if (s.law == PendulumLaw::kTorque || !recording.has(name)) return;
+  std::vector<double> torque = recording.channels.at(name);
+  if (current) {
+    for (double& v : torque) v *= s.kt_Nm_A;
+  }
+  const auto& t = recording.time_s;
+  const auto& position = recording.channels.at("position");
+  const std::vector<double> velocity =
+      recording.has("velocity") ? recording.channels.at("velocity") : slopes(t, position, 0.02);
+  GoalEvidence e;
+  const bool duty = s.law == PendulumLaw::kDuty;
+  e.limit_Nm = duty ? s.kt_Nm_A / s.resistance_ohm * s.supply_V : s.torque_limit_Nm;
+  const auto& in = run.inputs;
+  double slope = s.kp_Nm_rad;
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    if (duty) {
+      const double volt = in.supply_V.empty() ? s.supply_V : in.supply_V[i];
+      slope = s.kt_Nm_A / s.resistance_ohm * volt * s.kp_duty * s.counts_per_rad / (256.0 * 885.0);
+      const double brake = s.kt_Nm_A * s.kt_Nm_A / s.resistance_ohm * velocity[i];
+      e.base_Nm.push_back(-slope * position[i] - brake);
+      e.goal_Nm.push_back(slope * in.position_goal_rad[i]);
+    } else {
+      const double goal = in.velocity_goal_rad_s.empty() ? 0 : in.velocity_goal_rad_s[i];
+      const double ff = in.torque_ff_Nm.empty() ? 0 : in.torque_ff_Nm[i];
+      e.base_Nm.push_back(-s.kp_Nm_rad * position[i] - s.kd_Nm_s_rad * velocity[i]);
+      e.goal_Nm.push_back(s.kp_Nm_rad * in.position_goal_rad[i] + s.kd_Nm_s_rad * goal + ff);
+    }
+    const bool off = !in.enable.empty() && in.enable[i] < 0.5;
+    if (off || !std::isfinite(e.base_Nm[i])) torque[i] = std::nan("");
+  }
+  // What the law leaves where nothing is lost, a torque constant that is off included.
+  std::vector<double> left;
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    if (std::isfinite(torque[i])) left.push_back(std::abs(torque[i] - e.base_Nm[i] - e.goal_Nm[i]));
+  }
+  if (left.size() < 20) return;
+  std::nth_element(left.begin(), left.begin() + static_cast<long>(left.size() / 2), left.end());
+  e.noise_Nm = std::max({estimate_noise(t, torque), slope * estimate_noise(t, position),
+                         1.4826 * left[left.size() / 2], 1e-9});
+  e.torque_Nm = torque;
+  run.losses = find_losses(e);
+}
+
+double PendulumModel::complexity(const sim::EffectInfo& effect) const {
+  if (effect.name != "frame_loss") return 0;
+  // Each burst was placed, and given a length, by looking at the recording.
+  double sum = 0;
+  for (const Run& run : runs_) {
+    if (run.recording->holdout || run.losses.lost.empty()) continue;
+    sum += run.losses.bursts * std::log(static_cast<double>(run.losses.lost.size()));
+  }
+  return sum;
+}
+
+std::vector<RigModel::Counted> PendulumModel::counted(const sim::EffectInfo& effect) const {
+  if (effect.name != "frame_loss") return {};
+  // Lost or not is a chain of two states, seen at each sample of `periods` periods.
+  double samples = 0, lost = 0, stays = 0, periods = 0, bursts = 0;
+  for (const Run& run : runs_) {
+    if (run.losses.lost.empty()) continue;
+    const auto n = static_cast<double>(run.losses.lost.size());
+    const double span = run.inputs.time_s.back() - run.inputs.time_s.front();
+    const double period =
+        run.settings.control_period_s > 0 ? run.settings.control_period_s : span / (n - 1);
+    samples += n;
+    lost += n * run.losses.lost_share;
+    stays += n * run.losses.lost_share * run.losses.stays_lost;
+    periods += span / period;
+    bursts += run.losses.bursts;
+  }
+  if (lost < 1 || bursts < 1) return {};
+  const double share = lost / samples, each = periods / samples;
+  const double memory = std::clamp((stays / lost - share) / (1 - share), 1e-6, 1 - 1e-6);
+  const double leaves = 1 - std::pow(memory, 1 / each);
+  const double p = share * leaves, burst = 1 / ((1 - share) * leaves);
+  const double wide = 1.96 / std::sqrt(bursts);
+  return {
+      {0, p, p * std::exp(-wide), p * std::exp(wide)},
+      {1, std::max(burst, 1.0), std::max(burst * std::exp(-wide), 1.0), burst * std::exp(wide)}};
+}
+
 double PendulumModel::unit_of(const sim::EffectParameter& parameter) const {
   if (!parameter.unit.starts_with("Nm")) return 1;
   const bool peak = parameter.name == "ceiling";
@@ -300,14 +391,20 @@ Prediction PendulumModel::predict(int index, std::span<const double> setup,
   const Run& run = runs_[index];
   std::vector<std::unique_ptr<JointEffect>> owned;
   std::vector<JointEffect*> effects;
+  sim::PendulumInputs inputs = run.inputs;
   for (const ActiveEffect& effect : active) {
+    if (effect.info->name == "frame_loss" && !run.losses.lost.empty()) {
+      // Which goals were lost stands in the recording; drawing them anew would tell nothing.
+      inputs.lost = &run.losses.lost;
+      continue;
+    }
     owned.push_back(effect.info->make_joint(effect.values));
     effects.push_back(owned.back().get());
   }
   const auto correction =
       rollout == Rollout::kCorrected ? run.correction : sim::PendulumCorrection{};
   sim::PendulumTrace trace;
-  simulate_pendulum(settings(run, setup), run.inputs, effects, run.start, correction,
+  simulate_pendulum(settings(run, setup), inputs, effects, run.start, correction,
                     run.longest_step_s, trace);
   Prediction prediction;
   for (const std::string& name : run.channels) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/rigs/servo_pendulum.h"
+#include "tools/diagnose/goal_losses.h"
 #include "tools/diagnose/rig_model.h"
 
 namespace hoof::tools {
@@ -25,6 +26,8 @@ class PendulumModel final : public RigModel {
   const std::vector<DoubtfulValue>& doubtful() const override { return doubtful_; }
   const std::vector<const sim::EffectInfo*>& effects() const override { return effects_; }
   double unit_of(const sim::EffectParameter& parameter) const override;
+  double complexity(const sim::EffectInfo& effect) const override;
+  std::vector<Counted> counted(const sim::EffectInfo& effect) const override;
   Prediction predict(int recording, std::span<const double> setup,
                      std::span<const ActiveEffect> effects, Rollout rollout) const override;
   std::vector<Condition> conditions(int recording) const override;
@@ -40,6 +43,7 @@ class PendulumModel final : public RigModel {
     double wander_rad = 0, wander_rad_s = 0;  // 1-sigma of the corrected state before a sample
     std::vector<std::string> channels;
     double longest_step_s = 0;
+    GoalLosses losses;
     std::map<std::string, int> doubts;  // key of the setup to index in doubtful_
   };
 
@@ -50,6 +54,7 @@ class PendulumModel final : public RigModel {
   sim::PendulumSettings settings(const Run& run, std::span<const double> setup) const;
   void estimate_start(Run& run) const;
   void choose_correction(Run& run) const;
+  void look_for_losses(Run& run) const;
   void measure_effort();
 
   std::vector<DataSet> data_sets_;

@@ -62,6 +62,12 @@ PressModel::PressModel(const std::vector<DataSet>& data_sets) {
           press.surface_height = quantity(set, recording, "surface_height");
         }
       }
+      // What cannot be compared is missing for whoever compares.
+      auto& compared =
+          press.recording.channels.at(set.rig == RigKind::kPlateSand ? "force" : "position");
+      for (std::size_t i = 0; i < compared.size(); ++i) {
+        if (!press.compared[i]) compared[i] = std::numeric_limits<double>::quiet_NaN();
+      }
       presses_.push_back(std::move(press));
     }
   }

@@ -103,14 +103,18 @@ std::vector<bool> on_block(std::span<const double> height_m, std::span<const dou
   for (const double force : force_N) {
     if (force > largest_N) largest_N = force;
   }
-  constexpr double kBearing = 0.02;  // share of the largest force
-  double highest_m = -INFINITY;      // at which the plate bears
+  constexpr double kBearing = 0.02;             // share of the largest force
+  double low_m = INFINITY, high_m = -INFINITY;  // between which the plate bears
   for (std::size_t i = 0; i < force_N.size(); ++i) {
-    if (force_N[i] > kBearing * largest_N && height_m[i] > highest_m) highest_m = height_m[i];
+    if (!(force_N[i] > kBearing * largest_N) || std::isnan(height_m[i])) continue;
+    low_m = std::min(low_m, height_m[i]);
+    high_m = std::max(high_m, height_m[i]);
   }
+  // Contact itself is a little higher, by noise and by what the rig travels first.
+  const double aloft_m = high_m + 0.5 * (high_m - low_m);
   std::vector<bool> bears(force_N.size());
   for (std::size_t i = 0; i < force_N.size(); ++i) {
-    const bool aloft = !(force_N[i] > kBearing * largest_N) && height_m[i] > highest_m;
+    const bool aloft = !(force_N[i] > kBearing * largest_N) && height_m[i] > aloft_m;
     bears[i] = !std::isnan(height_m[i]) && !std::isnan(force_N[i]) && !aloft;
   }
   return bears;

@@ -61,6 +61,17 @@ class RigModel {
   /// torques, so that one catalogue serves motors of any size.
   virtual double unit_of(const sim::EffectParameter& /*parameter*/) const { return 1; }
 
+  /// What an effect costs beside its parameters, in log evidence: where a model takes from the
+  /// recordings what cannot be known otherwise, such as which goals were lost.
+  virtual double complexity(const sim::EffectInfo& /*effect*/) const { return 0; }
+
+  /// A parameter that is counted in the recordings and not fitted.
+  struct Counted {
+    int parameter = 0;
+    double value = 0, low95 = 0, high95 = 0;
+  };
+  virtual std::vector<Counted> counted(const sim::EffectInfo& /*effect*/) const { return {}; }
+
   /// Safe to call from several threads. Same arguments, same bytes.
   /// @param setup values in the order of doubtful()
   virtual Prediction predict(int recording, std::span<const double> setup,

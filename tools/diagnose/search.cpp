@@ -23,6 +23,8 @@ struct Candidate {
   Effects effects;
   Eigen::VectorXd x;
   double gain = 0;  // by which half the sum of squares would fall, linearly
+  int size_coordinate = -1;
+  bool by_log = false;
 };
 
 /// Residuals of a fit and a basis of what its own parameters can do.
@@ -31,12 +33,12 @@ struct Tangent {
   Eigen::MatrixXd basis;
 };
 
-Tangent tangent(const Fitter& fitter, const Fit& fit) {
+Tangent tangent(const Fitter& fitter, const Fit& fit, const Fitter::Weights& weights) {
   const Layout layout(fitter.model(), fit.effects);
   Tangent t;
-  const Eigen::VectorXd r = fitter.residuals(layout, fit.x);
+  const Eigen::VectorXd r = fitter.residuals(layout, fit.x, weights);
   const Eigen::Index samples = r.size() - layout.size();
-  const Eigen::MatrixXd J = fitter.jacobian(layout, fit.x, r).topRows(samples);
+  const Eigen::MatrixXd J = fitter.jacobian(layout, fit.x, r, weights).topRows(samples);
   t.r = r.head(samples);
   if (layout.size() > 0) {
     const Eigen::HouseholderQR<Eigen::MatrixXd> qr(J);
@@ -53,7 +55,8 @@ Effects with(const Effects& effects, const sim::EffectInfo* one) {
 
 /// Starts of `effect` beside a fit, each at the size that a linear step asks for, best first.
 std::vector<Candidate> starts_beside(const Fitter& fitter, const Fit& base, const Tangent& tangent,
-                                     const sim::EffectInfo* effect) {
+                                     const sim::EffectInfo* effect,
+                                     const Fitter::Weights& weights) {
   const Layout alone(fitter.model(), {effect});
   const Layout both(fitter.model(), with(base.effects, effect));
   std::vector<Candidate> candidates;
@@ -63,7 +66,7 @@ std::vector<Candidate> starts_beside(const Fitter& fitter, const Fit& base, cons
     Eigen::VectorXd x(both.size());
     x << base.x, start.x.tail(own);
     const int shift = both.size() - alone.size();
-    const Eigen::VectorXd r = fitter.residuals(both, x).head(tangent.r.size());
+    const Eigen::VectorXd r = fitter.residuals(both, x, weights).head(tangent.r.size());
     Eigen::VectorXd change = r - tangent.r;
     if (tangent.basis.cols() > 0) change -= tangent.basis * (tangent.basis.transpose() * change);
     const double square = change.squaredNorm();
@@ -75,8 +78,9 @@ std::vector<Candidate> starts_beside(const Fitter& fitter, const Fit& base, cons
       scale = -scale;
     }
     double gain = 0.5 * scale * scale * square;
+    bool by_log = false;
     if (size >= 0) {
-      const bool by_log = alone.of_effect(size - setup).parameter->logarithmic;
+      by_log = alone.of_effect(size - setup).parameter->logarithmic;
       if (by_log && scale <= 0) continue;
       const double limited = std::clamp(scale, by_log ? 1 / kMostScale : -kMostScale, kMostScale);
       if (by_log) {
@@ -88,7 +92,7 @@ std::vector<Candidate> starts_beside(const Fitter& fitter, const Fit& base, cons
       // No size to scale: what the start itself gains.
       gain = scale > 0 ? 0.5 * std::min(scale, 1.0) * (2 - std::min(scale, 1.0)) * square : 0;
     }
-    candidates.push_back({both.effects(), x, gain});
+    candidates.push_back({both.effects(), x, gain, size >= 0 ? size + shift : -1, by_log});
   }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
@@ -117,29 +121,30 @@ class Search {
   void fit_nominal() {
     say(0, "nominal model");
     const Layout layout(fitter_.model(), {});
-    Fit stated;
-    stated.x = layout.stated();
-    fitter_.judge(stated);
-    result_.stated_objective = stated.objective;
-    // First with room for what is not modelled, then in units of the noise.
-    auto& groups = fitter_.groups();
-    for (std::size_t g = 0; g < groups.size(); ++g) {
-      const double misfit = std::sqrt(stated.squares[g] / std::max(groups[g].samples, 1.0));
-      groups[g].sigma = std::max(groups[g].noise, 0.3 * misfit);
-    }
-    Fit nominal = fitter_.fit({}, stated.x, options_.iterations);
-    for (Group& group : groups) group.sigma = group.noise;
-    nominal = fitter_.fit({}, nominal.x, options_.iterations);
+    Fit nominal;
+    nominal.x = layout.stated();
+    nominal = settle(nominal);
     fitter_.judge(nominal);
     result_.fits = {nominal};
   }
 
+  /// Least squares in three rounds: the less a fit leaves, the less room the next gives it.
+  Fit settle(Fit fit) const {
+    for (const double share : {0.5, 0.15}) {
+      const auto weights = fitter_.roomy_weights(fitter_.squares(fit), share);
+      fit = fitter_.fit(fit.effects, fit.x, 6, weights, 1e-3);
+    }
+    return fitter_.fit(fit.effects, fit.x, options_.iterations, fitter_.weights());
+  }
+
   void follow(const std::vector<Candidate>& candidates, double from, double to,
-              const std::string& what) {
+              const std::string& what, bool anew = true) {
     std::vector<Fit> fits(candidates.size());
     std::atomic<int> done{0};
     for_each_task(static_cast<int>(candidates.size()), options_.threads, [&](int i) {
-      fits[i] = fitter_.fit(candidates[i].effects, candidates[i].x, options_.iterations);
+      fits[i] = anew ? settle(best_size(candidates[i]))
+                     : fitter_.fit(candidates[i].effects, candidates[i].x, options_.iterations,
+                                   fitter_.weights());
       fitter_.judge(fits[i]);
       const double share = ++done / static_cast<double>(candidates.size());
       if (std::this_thread::get_id() == caller_) say(from + (to - from) * share, what);
@@ -158,18 +163,38 @@ class Search {
     }
   }
 
+  /// The candidate at the size, of some, that leaves least: a linear step may go too far.
+  Fit best_size(const Candidate& candidate) const {
+    Fit fit;
+    fit.effects = candidate.effects;
+    fit.x = candidate.x;
+    if (candidate.size_coordinate < 0) return fit;
+    const auto weights = fitter_.roomy_weights(result_.fits[0].squares, 0.5);
+    double least = 1e300;
+    for (const double scale : {1.0, 0.4, 0.15, 0.03}) {
+      Eigen::VectorXd x = candidate.x;
+      double& size = x[candidate.size_coordinate];
+      size = candidate.by_log ? size + std::log(scale) : size * scale;
+      const double objective = fitter_.objective(fit.effects, x, weights);
+      if (objective < least) least = objective, fit.x = x;
+    }
+    return fit;
+  }
+
   std::vector<Candidate> look_beside(const Fit& base, int starts) {
-    const Tangent t = tangent(fitter_, base);
+    const auto weights = fitter_.roomy_weights(base.squares, 0.3);
+    const Tangent t = tangent(fitter_, base, weights);
     const auto& effects = fitter_.model().effects();
     std::vector<std::vector<Candidate>> found(effects.size());
     for_each_task(static_cast<int>(effects.size()), options_.threads, [&](int i) {
       const bool there =
           std::find(base.effects.begin(), base.effects.end(), effects[i]) != base.effects.end();
-      if (!there) found[i] = starts_beside(fitter_, base, t, effects[i]);
+      if (!there) found[i] = starts_beside(fitter_, base, t, effects[i], weights);
     });
     std::vector<Candidate> all;
     for (auto& list : found) {
       if (static_cast<int>(list.size()) > starts) list.resize(starts);
+      std::erase_if(list, [&list](const Candidate& c) { return c.gain < 0.3 * list[0].gain; });
       for (Candidate& c : list) all.push_back(std::move(c));
     }
     return all;
@@ -211,6 +236,9 @@ class Search {
     Eigen::VectorXd x(pair.x.size());
     x << pair.x.head(setup), pair.x.tail(second), pair.x.segment(setup, first);
     pair.x = x;
+    if (pair.size_coordinate >= setup + first) {
+      pair.size_coordinate -= static_cast<int>(first);
+    }
     std::swap(pair.effects[0], pair.effects[1]);
   }
 
@@ -228,10 +256,10 @@ class Search {
     say(0.8, "contenders");
     std::vector<Fit> fits = ranked();
     const Fit nominal = result_.fits[0];
-    std::vector<Candidate> again = {{nominal.effects, nominal.x, 0}};
+    std::vector<Candidate> again = {{nominal.effects, nominal.x, 0, -1, false}};
     for (const Fit& fit : fits) {
       if (!fit.effects.empty() && static_cast<int>(again.size()) < kContenders) {
-        again.push_back({fit.effects, fit.x, 0});
+        again.push_back({fit.effects, fit.x, 0, -1, false});
       }
     }
     std::vector<Fit> others;
@@ -242,7 +270,7 @@ class Search {
       if (!contends) others.push_back(fit);
     }
     result_.fits.clear();
-    follow(again, 0.8, 0.98, "contenders");
+    follow(again, 0.8, 0.98, "contenders", false);
     for_each_task(static_cast<int>(others.size()), options_.threads,
                   [&](int i) { fitter_.judge(others[i]); });
     for (Fit& fit : others) result_.fits.push_back(std::move(fit));
@@ -318,6 +346,8 @@ double first_rank(const Fitter& fitter, const Fit& fit) {
     likelihood -= 0.5 * group.samples * std::log(variance);
     samples += group.samples;
   }
+  for (const sim::EffectInfo* effect : fit.effects)
+    likelihood -= fitter.model().complexity(*effect);
   return likelihood - 0.5 * static_cast<double>(fit.x.size()) * std::log(std::max(samples, 2.0));
 }
 

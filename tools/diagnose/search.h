@@ -15,12 +15,11 @@ struct SearchOptions {
   std::function<bool(double, const std::string&)> progress;
   int fits_of_single = 2;  // starts of each effect that are followed to the end
   int pair_fits = 20;      // pairs that are fitted
-  int iterations = 14;
+  int iterations = 10;
 };
 
 struct SearchResult {
-  std::vector<Fit> fits;        // judged with the same groups; the first is the nominal model
-  double stated_objective = 0;  // of the nominal model with the setup as stated
+  std::vector<Fit> fits;  // judged with the same groups; the first is the nominal model
 };
 
 /// Thrown where progress says stop.

@@ -156,7 +156,8 @@ std::string channel_of_error(const std::string& key) {
 }
 
 std::string with_unit(double value, const std::string& unit) {
-  const std::string number = std::isfinite(value) ? format_significant(value, kDigits) : "diverged";
+  const std::string number =
+      std::isfinite(value) ? format_significant(value + 0.0, kDigits) : "diverged";  // no -0
   return unit.empty() || unit == "1" ? number : number + " " + unit;
 }
 
@@ -165,6 +166,16 @@ const EffectFinding* find_finding(const Verdict& verdict, const std::string& nam
       std::find_if(verdict.effects.begin(), verdict.effects.end(),
                    [&name](const EffectFinding& effect) { return effect.name == name; });
   return found == verdict.effects.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> effects_in_question(const Verdict& verdict) {
+  std::vector<std::string> names = verdict.named;
+  for (const auto& set : verdict.not_separable) {
+    for (const std::string& name : set) {
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+  }
+  return names;
 }
 
 std::string headline(const Verdict& verdict) {
@@ -234,8 +245,7 @@ std::vector<std::string> summary_lines(const Verdict& verdict, RigKind rig,
           "data        " + quality_text(verdict),
           "next        " + (verdict.next_experiment.empty() ? "-" : verdict.next_experiment),
           "files       " + folder +
-              "/verdict.json, improved.toml, residuals.csv, "
-              "hypotheses.csv"};
+              "/report.html, verdict.json, improved.toml, residuals.csv, hypotheses.csv"};
 }
 
 }  // namespace hoof::tools

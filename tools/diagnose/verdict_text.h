@@ -22,6 +22,9 @@ std::string with_unit(double value, const std::string& unit);
 /// The finding of an effect, or null.
 const EffectFinding* find_finding(const Verdict& verdict, const std::string& name);
 
+/// Named effects, then the other members of sets that cannot be told apart.
+std::vector<std::string> effects_in_question(const Verdict& verdict);
+
 /// The answer in one sentence, with its probability.
 std::string headline(const Verdict& verdict);
 

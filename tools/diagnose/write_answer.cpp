@@ -2,6 +2,7 @@
 
 #include "tools/diagnose/answer_tables.h"
 #include "tools/diagnose/effects_file.h"
+#include "tools/diagnose/report_page.h"
 #include "tools/diagnose/verdict_json.h"
 #include "tools/run/result_json.h"
 
@@ -12,6 +13,7 @@ void write_answer(const Verdict& verdict, const std::vector<DataSet>& data_sets,
   std::vector<std::string> names;
   for (const DataSet& set : data_sets) names.push_back(set.name);
   folder.write(kVerdictFile, result_json_text(verdict_json(verdict)));
+  folder.write("report.html", report_page(verdict, data_sets));
   folder.write("improved.toml", effects_file_text(verdict, names));
   folder.write("residuals.csv", residuals_csv(verdict.traces));
   folder.write("hypotheses.csv", hypotheses_csv(verdict.hypotheses));

@@ -11,7 +11,7 @@ namespace hoof::tools {
 
 inline constexpr char kVerdictFile[] = "verdict.json";
 
-/// verdict.json, improved.toml, residuals.csv and hypotheses.csv.
+/// verdict.json, report.html, improved.toml, residuals.csv and hypotheses.csv.
 void write_answer(const Verdict& verdict, const std::vector<DataSet>& data_sets,
                   AnswerFolder& folder);
 

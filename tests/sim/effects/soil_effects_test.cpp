@@ -206,6 +206,12 @@ TEST_CASE("unloading is continuous where other effects act as well, at a speed t
   contact.depth_m -= 1e-9;
   contact.speed_m_s = -1e-9;
   CHECK(soil_force_N(contact, effects) == Approx(turning_N).epsilon(1e-5));
+  // Pressed again, at speed: no step where the deepest point is passed.
+  contact.speed_m_s = 0.01;
+  const double before_N = soil_force_N(contact, effects);
+  contact.depth_m = 0.02 + 1e-9;
+  CHECK(soil_force_N(contact, effects) == Approx(before_N).epsilon(1e-5));
+  CHECK(before_N > 1.1 * turning_N);
 }
 
 TEST_CASE("rigs, feet and shear") {

@@ -52,6 +52,21 @@
     drawTimes(plot, marks, warn);
   }
 
+  function drawRegions(plot, regions) {
+    const { ctx, bbox } = plot;
+    ctx.save();
+    ctx.beginPath();
+    ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+    ctx.clip();
+    ctx.fillStyle = colour("--region");
+    for (const region of regions) {
+      const left = plot.valToPos(region.from_s, "x", true);
+      const right = plot.valToPos(region.to_s, "x", true);
+      ctx.fillRect(left, bbox.top, Math.max(right - left, 2 * devicePixelRatio), bbox.height);
+    }
+    ctx.restore();
+  }
+
   function axis(label) {
     const grid = { stroke: colour("--line"), width: 1 };
     const values = (_, ticks) => ticks.map(shown);  // uPlot's own rounds 0.0001 to 0
@@ -76,7 +91,10 @@
       cursor: { sync: { key: "time" } },
       axes: [axis("time [s]"), { ...axis(label), size: axisWidth_px }],
       series: [{ label: "time", value: (_, value) => shown(value) }, ...series],
-      hooks: { drawAxes: [drawAllTimes] },
+      hooks: {
+        drawClear: [(plot) => drawRegions(plot, description.regions ?? [])],
+        drawAxes: [drawAllTimes],
+      },
     };
     const data = [description.time_s ?? samples.time_s, ...description.series.map((line) => line.values)];
     return new uPlot(options, data, box);
@@ -91,9 +109,12 @@
 
   drawAll();
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", drawAll);
-  addEventListener("resize", () => {
+  const fitAll = () => {
     drawn.forEach((plot, index) => plot.setSize({ width: boxes[index].clientWidth, height: plotHeight_px }));
-  });
+  };
+  addEventListener("resize", fitAll);
+  // What is folded away has no width.
+  for (const fold of document.querySelectorAll("details")) fold.addEventListener("toggle", fitAll);
   // Paper is white whatever the screen is; plots are pixels, so they are drawn anew for it.
   const setPrinting = (printing) => {
     document.documentElement.classList.toggle("printing", printing);

@@ -1,0 +1,148 @@
+#include "tools/diagnose/report_plots.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "tools/diagnose/verdict_text.h"
+#include "tools/report/html.h"
+#include "tools/report/page.h"
+#include "tools/run/csv_writer.h"
+
+namespace hoof::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Values = std::vector<double>;
+
+constexpr std::size_t kMostSamples = 3000;  // a plot is 600 to 1200 pixels wide
+
+bool is_named(const Verdict& verdict, const ChannelTrace& trace) {
+  const auto& names = verdict.recordings;
+  return std::find(names.begin(), names.end(), trace.recording) != names.end();
+}
+
+std::string regions_json(const Verdict& verdict, const ChannelTrace& trace) {
+  std::string json = "[";
+  for (const Interval& i : verdict.intervals) {
+    if (i.recording != trace.recording) continue;
+    json += (json.size() > 1 ? "," : "") + std::string("{\"from_s\":") + format_number(i.start_s) +
+            ",\"to_s\":" + format_number(i.end_s) + "}";
+  }
+  return json + "]";
+}
+
+std::string line_json(const std::string& label, const Values& values, bool band) {
+  return "{\"label\":" + Json(label).dump() + ",\"band\":" + (band ? "true" : "false") +
+         ",\"values\":" + json_numbers(values, 1) + "}";
+}
+
+Values picked(const Values& values, const std::vector<std::size_t>& at) {
+  Values some;
+  for (const std::size_t i : at) some.push_back(values.at(i));
+  return some;
+}
+
+/// Measured less predicted.
+Values residual(const Values& measured, const Values& predicted) {
+  Values left(measured.size());
+  for (std::size_t i = 0; i < left.size(); ++i) left[i] = measured[i] - predicted.at(i);
+  return left;
+}
+
+class PlotWriter {
+ public:
+  PlotWriter(const Verdict& verdict, RigKind rig) : verdict_(verdict), rig_(rig) {}
+
+  void add(const ChannelTrace& t) {
+    const Values before = residual(t.measured, t.before), after = residual(t.measured, t.after);
+    const auto at = thinned({&t.measured, &before, &after}, kMostSamples);
+    const std::string role = element("span", t.holdout ? "held out" : "fitted", " class=\"role\"");
+    html_ += "<section class=\"pair\"><h3>" + html_escape(t.recording + ": " + t.channel) + role +
+             "</h3>\n<div class=\"plots\">\n";
+    // Same colours in both: the model before is the first line but one.
+    start_plot(t, at, "signal", t.channel);
+    json_ += line_json("measured", picked(t.measured, at), false) + ",\n" +
+             line_json("before", picked(t.before, at), false) + ",\n" +
+             line_json("after", picked(t.after, at), false) + "]}";
+    start_plot(t, at, "measured less model", t.channel + " error");
+    const auto floor = verdict_.noise_floor.find(t.channel + "_rmse");
+    const bool has_floor = floor != verdict_.noise_floor.end() && std::isfinite(floor->second);
+    const double two_sigma = has_floor ? 2 * floor->second : NAN;
+    json_ +=
+        line_json(has_floor ? "+2 noise floors" : "no floor", Values(at.size(), two_sigma), true) +
+        ",\n" + line_json("before", picked(before, at), false) + ",\n" +
+        line_json("after", picked(after, at), false) + ",\n" +
+        line_json(has_floor ? "-2 noise floors" : "no floor", Values(at.size(), -two_sigma), true) +
+        "]}";
+    html_ += "</div></section>\n";
+  }
+
+  void add_text(const std::string& html) { html_ += html; }
+
+  ReportPlots take() {
+    return {std::move(html_), "{\"time_s\":[],\"phases\":[],\"plots\":[" + std::move(json_) + "]}"};
+  }
+
+ private:
+  void start_plot(const ChannelTrace& t, const std::vector<std::size_t>& at,
+                  const std::string& title, const std::string& axis) {
+    html_ += "<div class=\"plot\">" + element("h3", title) + "<div class=\"canvas\"></div></div>\n";
+    json_ += (json_.empty() ? "" : ",\n") + std::string("{\"axis\":") + Json(axis).dump() +
+             ",\"unit\":" + Json(channel_unit(rig_, t.channel)).dump() +
+             ",\"time_s\":" + json_numbers(picked(t.time_s, at), 1) +
+             ",\"regions\":" + regions_json(verdict_, t) + ",\"series\":[";
+  }
+
+  const Verdict& verdict_;
+  RigKind rig_;
+  std::string html_, json_;
+};
+
+}  // namespace
+
+std::vector<std::size_t> thinned(const std::vector<const Values*>& series, std::size_t most) {
+  const std::size_t size = series.front()->size();
+  std::set<std::size_t> kept;
+  const std::size_t per_bucket = 2 * series.size();
+  const std::size_t buckets = std::max<std::size_t>(1, most / per_bucket);
+  for (std::size_t b = 0; b < buckets; ++b) {
+    const std::size_t first = b * size / buckets, last = (b + 1) * size / buckets;
+    for (std::size_t i = first; size <= most && i < last; ++i) kept.insert(i);
+    for (const Values* values : series) {
+      std::size_t low = last, high = last;
+      for (std::size_t i = first; i < last; ++i) {
+        const double v = (*values)[i];
+        if (std::isnan(v)) continue;
+        if (low == last || v < (*values)[low]) low = i;
+        if (high == last || v > (*values)[high]) high = i;
+      }
+      if (low < last) kept.insert({low, high});
+    }
+  }
+  return {kept.begin(), kept.end()};
+}
+
+ReportPlots report_plots(const Verdict& verdict, RigKind rig) {
+  PlotWriter plots(verdict, rig);
+  bool any_named = false;
+  for (const ChannelTrace& t : verdict.traces) any_named = any_named || is_named(verdict, t);
+  for (const ChannelTrace& t : verdict.traces) {
+    if (is_named(verdict, t)) plots.add(t);
+  }
+  const auto others = std::count_if(verdict.traces.begin(), verdict.traces.end(),
+                                    [&](const ChannelTrace& t) { return !is_named(verdict, t); });
+  if (others == 0) return plots.take();
+  if (any_named) {
+    plots.add_text("<details><summary>Other recordings and channels (" + std::to_string(others) +
+                   ")</summary>\n");
+  }
+  for (const ChannelTrace& t : verdict.traces) {
+    if (!is_named(verdict, t)) plots.add(t);
+  }
+  if (any_named) plots.add_text("</details>\n");
+  return plots.take();
+}
+
+}  // namespace hoof::tools
