@@ -27,7 +27,7 @@ class Diagnosis {
       : model_(model), options_(options), fitter_(model) {}
 
   Verdict run() {
-    SearchOptions search_options;
+    SearchOptions search_options = model_.costly() ? frugal_search() : SearchOptions();
     search_options.threads = options_.threads;
     search_options.progress = options_.progress;
     result_ = search(fitter_, search_options);

@@ -36,6 +36,7 @@ class FootModel final : public RigModel {
   double unit_of(const sim::EffectParameter& parameter) const override {
     return effects_.unit_of(parameter);
   }
+  bool costly() const override { return true; }
   Prediction predict(int recording, std::span<const double> setup,
                      std::span<const ActiveEffect> effects, Rollout rollout) const override;
   std::vector<Condition> conditions(int recording) const override;

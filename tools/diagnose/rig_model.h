@@ -72,6 +72,9 @@ class RigModel {
   };
   virtual std::vector<Counted> counted(const sim::EffectInfo& /*effect*/) const { return {}; }
 
+  /// True where a prediction takes so long that a search must look at the most promising only.
+  virtual bool costly() const { return false; }
+
   /// Safe to call from several threads. Same arguments, same bytes.
   /// @param setup values in the order of doubtful()
   virtual Prediction predict(int recording, std::span<const double> setup,
