@@ -29,7 +29,10 @@ ActiveEffect read_effect(const TomlView& effects, const std::string& name) {
   const TomlView table = effects.table(name);
   Words known;
   for (const sim::EffectParameter& p : effect.info->parameters) known.emplace_back(p.name);
+  const std::string joint = "joint";
+  if (effect.info->make_joint) known.push_back(joint);
   table.allow_only(known, "parameter of " + name);
+  if (table.has(joint)) effect.joint = table.choice(joint, Words{"toe", "hip", "knee"});
   for (const sim::EffectParameter& p : effect.info->parameters) {
     const std::string key(p.name);
     const double value = table.number(key, Allowed::kAny);
@@ -118,8 +121,10 @@ std::string effects_file_text(const Verdict& verdict, const std::vector<std::str
       text += "# " + std::string(info->summary) + "\n# " + std::string(info->equation) + "\n";
     }
     text += "[effects." + toml_key(name) + "]\n";
-    for (const ParameterEstimate& p : found->parameters)
+    for (const ParameterEstimate& p : found->parameters) {
       text += line(p.name, p.value, comment_of(p));
+    }
+    if (!found->joint.empty()) text += "joint = \"" + found->joint + "\"\n";
   }
   return text;
 }

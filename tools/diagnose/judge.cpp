@@ -11,6 +11,9 @@ constexpr double kNone = 0.30, kSingle = 0.38, kPair = 0.17, kUnknown = 0.15;
 /// Evidence is counted down by this: samples that look independent share one model's errors, and
 /// a fitted integrator is not the plant. From the calibration on concealed plants (README).
 constexpr double kTemperature = 2.0;
+/// And the more so the more there is to explain: a model's own errors grow with the effect. Half a
+/// percent of the best's evidence is worth three in a logarithm of odds.
+constexpr double kRelative = 1.0 / 600;
 /// No model is the plant: this much log likelihood per independent sample proves nothing.
 constexpr double kTolerated = 0.006;
 constexpr double kLeastGain = 2, kNoFinding = 4;
@@ -64,10 +67,11 @@ Gains gains(const Fitter& fitter, const Fit& fit, const Fit& none) {
 
 /// Evidence as it enters a probability: what is better than nominal by more than the tolerance is
 /// counted down, what is worse counts in full. An effect that changes nothing is no finding.
-double tempered(const Standing& s, double likelihood_gain, double tolerance) {
+double tempered(const Standing& s, double likelihood_gain, double tolerance, double most) {
   const double gain = s.evidence + s.holdout_gain;
   if (s.fit->effects.empty()) return 0;
-  const double counted = gain > 0 ? std::max(gain - tolerance, 0.0) / kTemperature : gain;
+  const double counted =
+      gain > 0 ? std::max(gain - tolerance, 0.0) / (kTemperature + kRelative * most) : gain;
   return likelihood_gain < kLeastGain ? std::min(counted, 0.0) - kNoFinding : counted;
 }
 
@@ -91,6 +95,10 @@ Judgement judge(const Fitter& fitter, const SearchResult& result) {
   for (const Group& group : fitter.groups()) {
     if (!group.holdout) tolerance += kTolerated * group.effective * group.samples;
   }
+  double most = 0;
+  for (const Fit& fit : result.fits) {
+    most = std::max(most, fit.log_evidence - none.log_evidence + holdout_gain(fitter, fit, none));
+  }
   double top = -1e300;
   std::vector<double> score;
   for (const Fit& fit : result.fits) {
@@ -99,7 +107,7 @@ Judgement judge(const Fitter& fitter, const SearchResult& result) {
         0};
     const Gains g = gains(fitter, fit, none);
     s.explained = g.possible > 0 ? g.made / g.possible : 1;
-    score.push_back(tempered(s, fit.log_likelihood - none.log_likelihood, tolerance) +
+    score.push_back(tempered(s, fit.log_likelihood - none.log_likelihood, tolerance, most) +
                     log_prior(fit, singles, pairs, stand_ins));
     top = std::max(top, score.back());
     j.standings.push_back(s);

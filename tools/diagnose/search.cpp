@@ -16,8 +16,6 @@ constexpr double kLeastVariance = 0.8;
 constexpr double kMostScale = 30;
 /// Of its start's size, where an effect does nothing to speak of.
 constexpr double kAlmostNothing = 1e-4;
-/// Contenders that are fitted anew with the noise as the best of them leaves it.
-constexpr int kContenders = 16;
 /// Residuals count for no less than one in this many.
 constexpr double kLeastEffective = 1.0 / 200;
 
@@ -114,6 +112,7 @@ class Search {
     fit_nominal();
     fit_singles();
     fit_pairs();
+    polish_best();
     take_noise_of_best();
     fit_contenders();
     say(1, "done");
@@ -150,8 +149,8 @@ class Search {
     std::atomic<int> done{0};
     for_each_task(static_cast<int>(candidates.size()), options_.threads, [&](int i) {
       fits[i] = anew ? follow_one(candidates[i])
-                     : fitter_.fit(candidates[i].effects, candidates[i].x, options_.iterations,
-                                   fitter_.weights());
+                     : polish(fitter_.fit(candidates[i].effects, candidates[i].x,
+                                          options_.iterations, fitter_.weights()));
       fitter_.judge(fits[i]);
       const double share = ++done / static_cast<double>(candidates.size());
       if (std::this_thread::get_id() == caller_) say(from + (to - from) * share, what);
@@ -182,6 +181,31 @@ class Search {
     size = candidate.by_log ? size + std::log(kAlmostNothing) : size * kAlmostNothing;
     const Fit again = fitter_.fit(candidate.effects, x, options_.iterations, fitter_.weights());
     return again.objective < fit.objective ? again : fit;
+  }
+
+  /// Each coordinate tried both ways, with a step that halves where neither helps.
+  Fit polish(Fit fit) const {
+    constexpr double kFirst = 0.1, kLast = 2e-4;
+    if (options_.polish_steps <= 0 || fit.effects.empty()) return fit;
+    const auto weights = fitter_.weights();
+    double least = fitter_.objective(fit.effects, fit.x, weights);
+    int left = options_.polish_steps;
+    for (double step = kFirst; step > kLast && left > 0;) {
+      bool better = false;
+      for (Eigen::Index i = 0; i < fit.x.size() && left > 0; ++i) {
+        for (const double side : {1.0, -1.0}) {
+          Eigen::VectorXd x = fit.x;
+          x[i] += side * step;
+          const double objective = fitter_.objective(fit.effects, x, weights);
+          --left;
+          if (!(objective < least)) continue;
+          least = objective, fit.x = x, better = true;
+          break;
+        }
+      }
+      if (!better) step *= 0.5;
+    }
+    return fit;
   }
 
   /// The candidate at the size, of some, that leaves least: a linear step may go too far.
@@ -225,7 +249,13 @@ class Search {
 
   void fit_singles() {
     say(0.05, "one effect");
-    follow(look_beside(result_.fits[0], options_.fits_of_single), 0.1, 0.45, "one effect");
+    std::vector<Candidate> singles = look_beside(result_.fits[0], options_.fits_of_single);
+    if (static_cast<int>(singles.size()) > options_.singles) {
+      std::stable_sort(singles.begin(), singles.end(),
+                       [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
+      singles.resize(options_.singles);
+    }
+    follow(singles, 0.1, 0.45, "one effect");
   }
 
   void fit_pairs() {
@@ -233,7 +263,7 @@ class Search {
     std::vector<Fit> singles = ranked();
     std::erase_if(singles,
                   [](const Fit& f) { return f.effects.size() != 1 || !f.effects[0]->listed; });
-    if (singles.size() > 4) singles.resize(4);
+    if (static_cast<int>(singles.size()) > options_.pair_bases) singles.resize(options_.pair_bases);
     std::vector<Candidate> pairs;
     for (const Fit& base : singles) {
       for (Candidate& c : look_beside(base, 1)) {
@@ -265,6 +295,25 @@ class Search {
     std::swap(pair.effects[0], pair.effects[1]);
   }
 
+  /// Of the best: what they leave is to stand for the noise.
+  void polish_best() {
+    if (options_.polish_steps <= 0) return;
+    constexpr std::size_t kBest = 4;
+    say(0.76, "best fits");
+    std::vector<Fit> fits = ranked();
+    std::erase_if(fits, [](const Fit& f) { return f.effects.empty(); });
+    if (fits.size() > kBest) fits.resize(kBest);
+    for_each_task(static_cast<int>(fits.size()), options_.threads, [&](int i) {
+      fits[i] = polish(fits[i]);
+      fitter_.judge(fits[i]);
+    });
+    for (Fit& fit : fits) {
+      for (Fit& known : result_.fits) {
+        if (known.effects == fit.effects) known = fit;
+      }
+    }
+  }
+
   std::vector<Fit> ranked() const {
     std::vector<Fit> fits = result_.fits;
     std::stable_sort(fits.begin(), fits.end(), [this](const Fit& a, const Fit& b) {
@@ -281,7 +330,7 @@ class Search {
     const Fit nominal = result_.fits[0];
     std::vector<Candidate> again = {{nominal.effects, nominal.x, 0, -1, false}};
     for (const Fit& fit : fits) {
-      if (!fit.effects.empty() && static_cast<int>(again.size()) < kContenders) {
+      if (!fit.effects.empty() && static_cast<int>(again.size()) < options_.contenders) {
         again.push_back({fit.effects, fit.x, 0, -1, false});
       }
     }
@@ -358,6 +407,18 @@ void Search::take_noise_of_best() {
 }
 
 }  // namespace
+
+SearchOptions frugal_search() {
+  SearchOptions options;
+  options.fits_of_single = 1;
+  options.pair_fits = 6;
+  options.iterations = 8;
+  options.singles = 10;
+  options.pair_bases = 2;
+  options.contenders = 8;
+  options.polish_steps = 50;
+  return options;
+}
 
 double first_rank(const Fitter& fitter, const Fit& fit) {
   double likelihood = 0, samples = 0;
