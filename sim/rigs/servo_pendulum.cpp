@@ -199,7 +199,7 @@ void Pendulum::prepare_gear() {
 }
 
 void Pendulum::read_goals(double t_s) {
-  bool lost = in_.lost != nullptr && (*in_.lost)[goal_.nearest(t_s - s_.input_late_s)];
+  bool lost = in_.lost != nullptr && (*in_.lost)[goal_.nearest(t_s)];
   for (JointEffect* effect : stages_.goal) lost = effect->goal_lost() || lost;
   if (lost) return;
   const double t = std::max(t_s - delay_s_, in_.time_s.front());

@@ -17,9 +17,10 @@ constexpr double kRelative = 1.0 / 600;
 /// No model is the plant: this much log likelihood per independent sample proves nothing.
 constexpr double kTolerated = 0.006;
 constexpr double kLeastGain = 2, kNoFinding = 4;
-/// Unknown physics is suspected where the best of the list explains less than this share.
-constexpr double kExplainedByKnown = 0.85;
-constexpr double kExplainedSpread = 0.05;
+/// Unknown physics is as likely as what the list names where that takes away this share of the
+/// squares above the noise; a share less by kRemovedSpread makes it e times more likely.
+constexpr double kRemovedByKnown = 0.45;
+constexpr double kRemovedSpread = 0.06;
 
 /// A held-out channel of one recording decides no more than this, in log likelihood.
 constexpr double kMostOfOneGroup = 15;
@@ -75,10 +76,35 @@ double tempered(const Standing& s, double likelihood_gain, double tolerance, dou
   return likelihood_gain < kLeastGain ? std::min(counted, 0.0) - kNoFinding : counted;
 }
 
+/// By channel the share of squares above the noise that is gone, the mean over the groups weighted
+/// by how far the nominal model is off in them.
+double removed(const Fitter& fitter, const Fit& fit, const Fit& none) {
+  double sum = 0, weights = 0;
+  for (std::size_t g = 0; g < fitter.groups().size(); ++g) {
+    const Group& group = fitter.groups()[g];
+    if (group.holdout || group.samples < 1) continue;
+    const double floor = group.noise * group.noise * group.samples;
+    const double before = none.squares[g] - floor, after = std::max(fit.squares[g] - floor, 0.0);
+    if (before <= 0.05 * floor) continue;
+    const double weight = std::log1p(before / floor) * group.samples;
+    sum += weight * std::clamp(1 - after / before, -1.0, 1.0);
+    weights += weight;
+  }
+  return weights > 0 ? sum / weights : 1;
+}
+
 double log_prior(const Fit& fit, double singles, double pairs, double stand_ins) {
   if (fit.effects.empty()) return std::log(kNone);
   if (!listed(fit)) return std::log(kUnknown / std::max(stand_ins, 1.0));
   return fit.effects.size() == 1 ? std::log(kSingle / singles) : std::log(kPair / pairs);
+}
+
+/// Takes from each hypothesis of the list what it leaves unexplained, for the unknown.
+void suspect_unknown(std::vector<Standing>& standings) {
+  for (Standing& s : standings) {
+    if (!s.listed || s.fit->effects.empty()) continue;
+    s.insufficient = 1 / (1 + std::exp((s.removed - kRemovedByKnown) / kRemovedSpread));
+  }
 }
 
 }  // namespace
@@ -107,6 +133,7 @@ Judgement judge(const Fitter& fitter, const SearchResult& result) {
         0};
     const Gains g = gains(fitter, fit, none);
     s.explained = g.possible > 0 ? g.made / g.possible : 1;
+    s.removed = removed(fitter, fit, none);
     score.push_back(tempered(s, fit.log_likelihood - none.log_likelihood, tolerance, most) +
                     log_prior(fit, singles, pairs, stand_ins));
     top = std::max(top, score.back());
@@ -120,6 +147,7 @@ Judgement judge(const Fitter& fitter, const SearchResult& result) {
   std::stable_sort(
       j.standings.begin(), j.standings.end(),
       [](const Standing& a, const Standing& b) { return a.probability > b.probability; });
+  suspect_unknown(j.standings);
   const Gains all = gains(fitter, none, none);
   j.misfit = all.samples > 0 ? all.possible / all.samples : 0;
   for (const Standing& s : j.standings) {
@@ -131,12 +159,14 @@ Judgement judge(const Fitter& fitter, const SearchResult& result) {
   for (const sim::EffectInfo* effect : fitter.model().effects()) {
     if (effect->listed) j.marginals[std::string(effect->name)] = 0;
   }
-  for (const Standing& s : j.standings) {
+  for (Standing& s : j.standings) {
     if (s.fit->effects.empty()) {
       j.none += s.probability;
     } else if (!s.listed) {
       j.unknown += s.probability;
     } else {
+      j.unknown += s.insufficient * s.probability;
+      s.probability *= 1 - s.insufficient;
       for (const sim::EffectInfo* e : s.fit->effects) {
         j.marginals[std::string(e->name)] += s.probability;
       }
