@@ -29,6 +29,12 @@ class Diagnosis {
     SearchOptions search_options;
     search_options.threads = options_.threads;
     search_options.progress = options_.progress;
+    if (model_.quick()) {
+      // All starts are followed, and long valleys (k_phi against n) to their end.
+      search_options.iterations = 60;
+      search_options.fits_of_single = 8;
+      search_options.least_gain = 0;
+    }
     result_ = search(fitter_, search_options);
     judgement_ = judge(fitter_, result_);
     decide();

@@ -194,7 +194,8 @@ class Search {
     std::vector<Candidate> all;
     for (auto& list : found) {
       if (static_cast<int>(list.size()) > starts) list.resize(starts);
-      std::erase_if(list, [&list](const Candidate& c) { return c.gain < 0.3 * list[0].gain; });
+      const double least = list.empty() ? 0 : options_.least_gain * list[0].gain;
+      std::erase_if(list, [least](const Candidate& c) { return c.gain < least; });
       for (Candidate& c : list) all.push_back(std::move(c));
     }
     return all;

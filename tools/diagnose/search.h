@@ -13,8 +13,9 @@ struct SearchOptions {
   int threads = 1;
   /// Share done and what is being done; false: stop.
   std::function<bool(double, const std::string&)> progress;
-  int fits_of_single = 2;  // starts of each effect that are followed to the end
-  int pair_fits = 20;      // pairs that are fitted
+  int fits_of_single = 2;   // starts of each effect that are followed to the end
+  double least_gain = 0.3;  // of those after the first, of what the first promises
+  int pair_fits = 20;       // pairs that are fitted
   int iterations = 10;
 };
 
