@@ -144,6 +144,10 @@ void Settings::merge(const Settings& other, std::string_view section) {
   for (const auto& [key, entry] : other.entries_) put(prefix + key, entry);
 }
 
+void Settings::erase(std::string_view key) {
+  if (const auto found = entries_.find(key); found != entries_.end()) entries_.erase(found);
+}
+
 void Settings::set(std::string_view assignment) {
   const std::string whole(assignment);
   const std::size_t equals = assignment.find('=');

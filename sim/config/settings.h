@@ -60,6 +60,8 @@ class Settings {
   /// Takes over all entries of `other` below `section` ("" for the root); they win over mine.
   void merge(const Settings& other, std::string_view section = "");
 
+  void erase(std::string_view key);
+
   /// Applies "dotted.key=value". The value is read as TOML, or as a string where it is none. For a
   /// measured value {value, sigma, source} the bare key sets its value.
   void set(std::string_view assignment);

@@ -28,18 +28,26 @@ Drive::Drive(const DriveSettings& settings, double joint_position_rad)
   sampled_position_rad_ = counted_position_rad_ = encoder_position_rad();
 }
 
+void Drive::add_physics(std::unique_ptr<JointEffect> effect) {
+  physics_.add(std::move(effect), settings_.torque_limit_Nm);
+  if (!settings_.absolute_position) zero();
+  sampled_position_rad_ = counted_position_rad_ = encoder_position_rad();
+}
+
 void Drive::enable() {
   enabled_ = true;
   error_ = DriveError::kNone;
+  late_commands_.clear();
   command_age_s_ = settings_.command_timeout_s;
 }
 
 void Drive::disable() {
   enabled_ = false;
+  late_commands_.clear();
 }
 
 void Drive::zero() {
-  zero_rad_ = position_rad_;
+  zero_rad_ = physics_.reading_rad(position_rad_);
   sampled_position_rad_ = counted_position_rad_ = 0.0;
   sampled_velocity_rad_s_ = 0.0;
 }
@@ -53,12 +61,31 @@ void Drive::restart() {
 }
 
 void Drive::command(const DriveCommand& command) {
+  if (physics_.any()) {
+    if (physics_.goal_lost()) return;
+    if (physics_.goal_delay_s() > 0) {
+      late_commands_.push_back({command, physics_.goal_delay_s()});
+      return;
+    }
+  }
   command_ = command;
   command_age_s_ = 0.0;
 }
 
+/// Before a step: goals whose time has come count from its start on.
+void Drive::take_late_commands(double dt_s) {
+  constexpr double kRounding_s = 1e-9;
+  while (!late_commands_.empty() && late_commands_.front().left_s < kRounding_s) {
+    command_ = late_commands_.front().command;
+    command_age_s_ = 0.0;
+    late_commands_.pop_front();
+  }
+  for (LateCommand& late : late_commands_) late.left_s -= dt_s;
+}
+
 double Drive::encoder_position_rad() const {
-  return std::floor((position_rad_ - zero_rad_) / count_rad_ + 0.5) * count_rad_;
+  const double angle_rad = physics_.reading_rad(position_rad_) - zero_rad_;
+  return std::floor(angle_rad / count_rad_ + 0.5) * count_rad_;
 }
 
 void Drive::sample_encoder(double dt_s) {
@@ -106,10 +133,14 @@ double Drive::limited_torque_Nm(double wanted_Nm) const {
 double Drive::swing(double h_s, double first_rad, double w_j) {
   const DriveSettings& s = settings_;
   const double J = s.rotor_inertia_kg_m2;
-  const double k = s.gear_stiffness_Nm_rad;
-  const double c = s.gear_damping_Nm_s_rad;
+  const double k = physics_.stiffness_Nm_rad(s.gear_stiffness_Nm_rad);
+  const double gear_c = k < s.gear_stiffness_Nm_rad
+                            ? s.gear_damping_Nm_s_rad * std::sqrt(k / s.gear_stiffness_Nm_rad)
+                            : s.gear_damping_Nm_s_rad;
   const double b = s.viscous_friction_Nm_s_rad;
-  const double mass = J + h_s * (c + b);
+  const double half_gap = physics_.half_gap_rad();
+  double c = gear_c;
+  double mass = J + h_s * (c + b);
   double most = h_s * s.coulomb_friction_Nm / mass;
   double position_rad = position_rad_;
   double start = velocity_rad_s_;
@@ -117,11 +148,18 @@ double Drive::swing(double h_s, double first_rad, double w_j) {
   double sum_Nm = 0.0;
   for (int i = 0; i < kSubsteps; ++i) {
     const double q_j = first_rad + w_j * h_s * i;
+    const double twist = position_rad - q_j;
+    const double stretch = twist - std::clamp(twist, -half_gap, half_gap);
+    if (half_gap > 0.0) {  // in the play rotor and joint do not feel each other
+      c = stretch == 0.0 ? 0.0 : gear_c;
+      mass = J + h_s * (c + b);
+      most = h_s * s.coulomb_friction_Nm / mass;
+    }
     // Damping implicit, so that any c and b are stable. Coulomb friction as an impulse that brings
     // the rotor to rest at most: below it the rotor sticks exactly, above it slides against it.
-    const double push = motor_torque_Nm_ - k * (position_rad - q_j) + c * w_j;
+    const double push = motor_torque_Nm_ - k * stretch + c * w_j;
     const double free = (J * start + h_s * push) / mass;
-    if (!effects_.empty()) most = h_s * coulomb_Nm() / mass;
+    if (!effects_.empty() || physics_.rubs()) most = h_s * coulomb_Nm(start, push) / mass;
     const double w = std::abs(free) <= most ? 0.0 : free - std::copysign(most, free);
     const double friction_Nm = b * w + (free - w) * mass / h_s;
     for (DriveEffect* effect : effects_) {
@@ -131,7 +169,7 @@ double Drive::swing(double h_s, double first_rad, double w_j) {
     // The gear's torque over the sub-step is what changed the rotor, not what the spring says at
     // one of its ends: momentum between rotor and joint is kept to the last bit.
     const double damper_Nm = c * (w - w_j);
-    sum_Nm += k * (position_rad - q_j) + damper_Nm;
+    sum_Nm += k * stretch + damper_Nm;
     position_rad += h_s * w;
 
     const double mean = 0.5 * (start + w);
@@ -146,14 +184,20 @@ double Drive::swing(double h_s, double first_rad, double w_j) {
   return sum_Nm / kSubsteps;
 }
 
-double Drive::coulomb_Nm() const {
+/// @param push_Nm the way a rotor at rest is about to go
+double Drive::coulomb_Nm(double velocity_rad_s, double push_Nm) const {
   double sum_Nm = settings_.coulomb_friction_Nm;
   for (const DriveEffect* effect : effects_) sum_Nm += effect->friction_Nm();
-  return sum_Nm;
+  if (!physics_.rubs()) return sum_Nm;
+  const double w = velocity_rad_s != 0.0 ? velocity_rad_s : std::copysign(1e-12, push_Nm);
+  const JointMotion motion{
+      w,      motor_torque_Nm_, -joint_torque_Nm_, settings_.coulomb_friction_Nm, position_rad_,
+      time_s_};
+  return std::max(sum_Nm + physics_.friction_Nm(motion), 0.0);
 }
 
 void Drive::warm_up(double dt_s) {
-  const double loss_W = settings_.copper_loss_W_Nm2 * motor_torque_Nm_ * motor_torque_Nm_;
+  const double loss_W = settings_.copper_loss_W_Nm2 * asked_torque_Nm_ * asked_torque_Nm_;
   const double cooling_W =
       (temperature_C_ - settings_.ambient_C) / settings_.thermal_resistance_K_W;
   temperature_C_ += (loss_W - cooling_W) * dt_s / settings_.heat_capacity_J_K;
@@ -166,8 +210,11 @@ double Drive::step(double dt_s, double joint_position_rad, double joint_velocity
   joint_velocity_rad_s_ = joint_velocity_rad_s;
 
   sample_encoder(dt_s);
-  motor_torque_Nm_ = limited_torque_Nm(law_torque_Nm());
-  for (DriveEffect* effect : effects_) motor_torque_Nm_ = effect->motor_torque_Nm(motor_torque_Nm_);
+  take_late_commands(dt_s);
+  asked_torque_Nm_ = limited_torque_Nm(law_torque_Nm());
+  for (DriveEffect* effect : effects_) asked_torque_Nm_ = effect->motor_torque_Nm(asked_torque_Nm_);
+  motor_torque_Nm_ = obeys() ? physics_.motor_torque_Nm(asked_torque_Nm_, velocity_rad_s_, dt_s)
+                             : asked_torque_Nm_;
   command_age_s_ += dt_s;
 
   // The multibody side is a leapfrog: the torque of this step takes its velocity from half a step
@@ -179,18 +226,25 @@ double Drive::step(double dt_s, double joint_position_rad, double joint_velocity
   joint_torque_Nm_ = swing(h_s, first_rad, joint_velocity_rad_s);
   joint_position_rad_ = first_rad + joint_velocity_rad_s * dt_s;
   warm_up(dt_s);
-  return joint_torque_Nm_;
+  const double link_Nm =
+      physics_.any() ? physics_.link_torque_Nm(joint_position_rad, joint_velocity_rad_s, time_s_)
+                     : 0.0;
+  time_s_ += dt_s;
+  return joint_torque_Nm_ + link_Nm;
 }
 
 DriveReading Drive::reading() const {
-  return {sampled_position_rad_, sampled_velocity_rad_s_, motor_torque_Nm_, temperature_C_, error_};
+  return {sampled_position_rad_, sampled_velocity_rad_s_, asked_torque_Nm_, temperature_C_, error_};
 }
 
 DriveEnergy Drive::energy() const {
   DriveEnergy energy = energy_;
   const double twist = position_rad_ - joint_position_rad_;
+  const double half_gap = physics_.half_gap_rad();
+  const double stretch = twist - std::clamp(twist, -half_gap, half_gap);
   energy.kinetic_J = 0.5 * settings_.rotor_inertia_kg_m2 * velocity_rad_s_ * velocity_rad_s_;
-  energy.spring_J = 0.5 * settings_.gear_stiffness_Nm_rad * twist * twist;
+  energy.spring_J =
+      0.5 * physics_.stiffness_Nm_rad(settings_.gear_stiffness_Nm_rad) * stretch * stretch;
   return energy;
 }
 

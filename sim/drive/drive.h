@@ -2,9 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
+#include <memory>
 #include <vector>
 
 #include "sim/drive/drive_settings.h"
+#include "sim/drive/joint_physics.h"
 #include "sim/effects/drive_effect.h"
 
 namespace hoof::sim {
@@ -72,6 +75,10 @@ class Drive {
   /// Something that is wrong with this drive from its start() on; it must outlive the drive.
   void add_effect(DriveEffect& effect) { effects_.push_back(&effect); }
 
+  /// Optional physics of this drive and its joint (joint_physics.h), before its first step.
+  /// @throws std::invalid_argument for an effect that a drive of the foot has no place for
+  void add_physics(std::unique_ptr<JointEffect> effect);
+
   /// True while the drive cannot push by itself: off, without a fresh command, or damping only. A
   /// feed-forward of no more than `torque_Nm` and a speed target of no more than `velocity_rad_s`
   /// count as none: the wire has no code for zero.
@@ -80,11 +87,14 @@ class Drive {
   /// Makes the present encoder position the zero of commands and readings.
   void zero();
 
-  /// Takes a new command. The torque ends settings.command_timeout_s after the last one.
+  /// Takes a new command. The torque ends settings.command_timeout_s after the last one. Effects
+  /// of the bus on goals act here and not at the frame: no other order comes this way, replies tell
+  /// the drive's state whether or not a goal counts, and the times are the same, as frames are
+  /// handed on in plant time between two steps.
   void command(const DriveCommand& command);
 
   /// Advances by dt_s while the joint moves from joint_position_rad with joint_velocity_rad_s.
-  /// @returns the mean torque of the gear on the joint, Nm
+  /// @returns the mean torque on the joint, Nm: of the gear, and of effects that act on the link
   double step(double dt_s, double joint_position_rad, double joint_velocity_rad_s);
 
   DriveReading reading() const;
@@ -103,12 +113,18 @@ class Drive {
   double law_torque_Nm() const;
   double limited_torque_Nm(double wanted_Nm) const;
   double swing(double h_s, double first_rad, double joint_velocity_rad_s);
-  double coulomb_Nm() const;
+  double coulomb_Nm(double velocity_rad_s, double push_Nm) const;
+  void take_late_commands(double dt_s);
   void warm_up(double dt_s);
 
   DriveSettings settings_;
   double count_rad_;  // of the encoder, at the joint
   DriveCommand command_;
+  struct LateCommand {
+    DriveCommand command;
+    double left_s = 0;  // until it counts
+  };
+  std::deque<LateCommand> late_commands_;  // goals on their way, by effects
   bool enabled_ = false;
   DriveError error_ = DriveError::kNone;
   double command_age_s_ = 0.0;
@@ -117,11 +133,14 @@ class Drive {
   double velocity_rad_s_ = 0.0;
   double zero_rad_ = 0.0;
   std::vector<DriveEffect*> effects_;
+  JointPhysics physics_;
+  double time_s_ = 0.0;                // since the first step; for effects
   double counted_position_rad_ = 0.0;  // what speed is the difference of
   double sampled_position_rad_ = 0.0;  // that, and what shifts the zero
   double sampled_velocity_rad_s_ = 0.0;
   double filter_dt_s_ = 0.0;  // step for which the speed filter takes filter_share_ of what is new
   double filter_share_ = 0.0;
+  double asked_torque_Nm_ = 0.0;  // what the electronics take the motor's torque for
   double motor_torque_Nm_ = 0.0;
   double temperature_C_;
   /// Joint as of the last step, and the mean gear torque in it.

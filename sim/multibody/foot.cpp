@@ -75,6 +75,12 @@ void read_mesh_file(Reader& section, Foot& foot) {
   centre(foot.middle);
 }
 
+void make_meshes(Foot& foot) {
+  foot.middle = make_middle(foot.geometry);
+  foot.has_toes = foot.geometry.has_toes;
+  if (foot.has_toes) foot.left_toe = foot.right_toe = make_toe(foot.geometry);
+}
+
 void read_parts(Reader& section, Foot& foot) {
   FootGeometry& geometry = foot.geometry;
   geometry.middle = read_sole(section.section("middle"));
@@ -89,10 +95,8 @@ void read_parts(Reader& section, Foot& foot) {
   section.finish();
   section.check([&geometry] { geometry.validate(); });
 
-  foot.middle = make_middle(geometry);
-  foot.has_toes = geometry.has_toes;
+  make_meshes(foot);
   if (!foot.has_toes) return;
-  foot.left_toe = foot.right_toe = make_toe(geometry);
   foot.hinges.left_F_m = {geometry.toe.hinge_from_heel_m - 0.5 * geometry.middle.length_m,
                           geometry.toe.hinge_lateral_m, 0.0};
 }
@@ -113,6 +117,22 @@ void Foot::validate() const {
   if (!(hinges.min_opening_rad < hinges.max_opening_rad)) {
     throw std::invalid_argument("min_opening: must be below max_opening");
   }
+}
+
+Foot with_worn_spines(Foot foot, double loss_m) {
+  if (!foot.geometry.has_spines) {
+    throw std::invalid_argument("the foot '" + foot.name + "' has no spines that could wear");
+  }
+  if (loss_m == 0.0) return foot;
+  SpineGeometry& spines = foot.geometry.spines;
+  const double share = loss_m / spines.length_m;
+  foot.geometry.has_spines = share < 1.0;
+  if (foot.geometry.has_spines) {
+    spines.tip_m += share * (spines.base_m - spines.tip_m);
+    spines.length_m -= loss_m;
+  }
+  make_meshes(foot);
+  return foot;
 }
 
 Foot read_foot(Reader section) {

@@ -40,6 +40,11 @@ struct Foot {
   void validate() const;
 };
 
+/// The same foot with the ends of its spines worn off by loss_m along their axes: truncated, so
+/// that their tips grow wider; gone where nothing is left. Its mass stays as stated.
+/// @throws std::invalid_argument for a foot without spines of its own, as one from a mesh file
+Foot with_worn_spines(Foot foot, double loss_m);
+
 /// Reads the section "foot" of a run and makes the meshes. A foot with `mesh_file` is one rigid
 /// body from that STL file; `toe` and `spines` are sections a foot may lack.
 Foot read_foot(Reader section);

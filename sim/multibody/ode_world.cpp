@@ -27,6 +27,11 @@ OdeWorld::OdeWorld(const Eigen::Vector3d& gravity_m_s2) {
   static std::once_flag once;
   std::call_once(once, [] { dInitODE2(0); });
   world_ = dWorldCreate();
+  // The stepping jobs of a world are kept by its threading; the library's own is one for all
+  // worlds, which two worlds stepped in two threads at once would tear.
+  threading_ = dThreadingAllocateSelfThreadedImplementation();
+  dWorldSetStepThreadingImplementation(world_, dThreadingImplementationGetFunctions(threading_),
+                                       threading_);
   dWorldSetGravity(world_, gravity_m_s2.x(), gravity_m_s2.y(), gravity_m_s2.z());
   dWorldSetERP(world_, kErrorReduction);
   dWorldSetCFM(world_, kCompliance);
@@ -35,6 +40,7 @@ OdeWorld::OdeWorld(const Eigen::Vector3d& gravity_m_s2) {
 
 OdeWorld::~OdeWorld() {
   dWorldDestroy(world_);
+  dThreadingFreeImplementation(threading_);
 }
 
 void OdeWorld::step(double interval_s) {

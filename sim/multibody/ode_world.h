@@ -9,12 +9,14 @@
 
 struct dxBody;
 struct dxJoint;
+struct dxThreadingImplementation;
 struct dxWorld;
 
 namespace hoof::sim {
 
 /// Owns all bodies and joints made in it. Steps with the direct solver (dWorldStep), which is
-/// deterministic; the iterative one draws random numbers.
+/// deterministic; the iterative one draws random numbers. Worlds share nothing: each thread may
+/// step one of its own.
 class OdeWorld {
  public:
   explicit OdeWorld(const Eigen::Vector3d& gravity_m_s2);
@@ -27,6 +29,7 @@ class OdeWorld {
 
  private:
   dxWorld* world_;
+  dxThreadingImplementation* threading_;
 };
 
 /// A rigid body known by its frame B, which need not be at the centre of mass.

@@ -1,6 +1,7 @@
 #include "sim/terrain/rft_terrain.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "sim/terrain/rft_law.h"
 
@@ -8,6 +9,11 @@ namespace hoof::sim {
 
 RftTerrain::RftTerrain(const RftTerrainSettings& settings) : settings_(settings) {
   settings_.validate();
+}
+
+void RftTerrain::add_effect(std::unique_ptr<SoilEffect> effect) {
+  effect->reset();
+  effects_.push_back(std::move(effect));
 }
 
 int RftTerrain::add_body(const TriangleMesh& mesh, const Pose&) {
@@ -33,6 +39,34 @@ double RftTerrain::scale_Pa(double depth_m) const {
          rft::flat_plate_alpha();
 }
 
+/// @param alpha size of the facet's, so that its force at full flow is area alpha scale_Pa(depth)
+SoilContact RftTerrain::as_soil_contact(const Contact& contact, double depth_m, double alpha,
+                                        double speed_m_s) const {
+  SoilContact soil;
+  soil.depth_m = soil.deepest_m = depth_m;
+  soil.speed_m_s = speed_m_s;
+  soil.area_m2 = contact.facet.area_m2;
+  soil.shear_m = contact.shear_m;
+  soil.time_s = time_s_;
+  if (settings_.pressure_law == PressureLaw::kLinear) {
+    soil.stiffness_N_m = contact.facet.area_m2 * alpha * settings_.xi_n_N_m3.value;
+    return soil;
+  }
+  soil.exponent = settings_.bekker_exponent;
+  soil.stiffness_N_m = contact.facet.area_m2 * alpha * scale_Pa(1.0);
+  return soil;
+}
+
+/// What effects make of the force, over the nominal one; exactly 1 where they change nothing.
+double RftTerrain::effect_factor(const SoilContact& contact) const {
+  const double nominal_N = contact.stiffness_N_m * std::pow(contact.depth_m, contact.exponent);
+  if (!(nominal_N > 0)) return 1;
+  SoilContact seen = contact;
+  seen.depth_m += extra_depth_m(contact, effects_);
+  seen.deepest_m = seen.depth_m;
+  return soil_force_N(seen, effects_) / nominal_N;
+}
+
 void RftTerrain::update(Contact& contact, const Eigen::Vector3d& normal_W, double depth_m,
                         const Eigen::Vector3d& moved_m, double interval_s) const {
   const double u_y_m = settings_.yield_displacement_m.value;
@@ -46,8 +80,13 @@ void RftTerrain::update(Contact& contact, const Eigen::Vector3d& normal_W, doubl
   const Eigen::Vector3d damped_m = u_m + settings_.damping_s / interval_s * moved_m;
   const double size_m = damped_m.norm();
   if (size_m > 0 && normal_W.dot(damped_m) > 0) {
-    const Eigen::Vector3d full_Pa =
-        scale_Pa(depth_m) * rft::alpha(normal_W, damped_m / size_m, settings_.surface_friction);
+    const Eigen::Vector3d alpha =
+        rft::alpha(normal_W, damped_m / size_m, settings_.surface_friction);
+    Eigen::Vector3d full_Pa = scale_Pa(depth_m) * alpha;
+    if (!effects_.empty()) {
+      const double down_m_s = -moved_m.z() / interval_s;
+      full_Pa *= effect_factor(as_soil_contact(contact, depth_m, alpha.norm(), down_m_s));
+    }
     contact.stress_Pa = std::min(1.0, size_m / u_y_m) * full_Pa;
     most_J_m2 = 0.5 * full_Pa.norm() * u_m.squaredNorm() / u_y_m;
   }
@@ -64,6 +103,7 @@ void RftTerrain::update(Contact& contact, const Eigen::Vector3d& normal_W, doubl
 
 void RftTerrain::advance(double interval_s, std::span<const BodyMotion> motions,
                          std::span<Wrench> wrenches) {
+  time_s_ += interval_s;
   for (std::size_t body = 0; body < bodies_.size(); ++body) {
     const Pose& start = motions[body].start;
     const Pose& end = motions[body].end;
@@ -85,6 +125,7 @@ void RftTerrain::advance(double interval_s, std::span<const BodyMotion> motions,
       const Eigen::Vector3d arm = R_end * centre_B;
       const Eigen::Vector3d moved_m = shifted_m + turned * centre_B;
       const Eigen::Vector3d before_Pa = contact.stress_Pa;
+      contact.shear_m += moved_m.head<2>().norm();
       update(contact, R_end * contact.facet.normal_B, depth_m, moved_m, interval_s);
       const double area_m2 = contact.facet.area_m2;
       work_J_ += 0.5 * area_m2 * (before_Pa + contact.stress_Pa).dot(moved_m);

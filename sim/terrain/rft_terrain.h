@@ -11,13 +11,19 @@
 //
 // Below its limit the stress has a viscous part (damping), else a standing foot would ring.
 //
+// Optional physics of the soil acts on each facet by itself: what an effect makes of a force that
+// grows with depth is made of the facet's, in its own direction, at full flow. Walls are as far as
+// an effect takes those to be that it is not told of. Unloading is this law's own.
+//
 // Not modelled: the footprint (depth is from the undisturbed surface, also where a foot stood
 // before), heaps, the sand's inertia, walls and floor of a box, what one facet does to the sand
 // before the next one.
 #pragma once
 
+#include <memory>
 #include <vector>
 
+#include "sim/effects/soil_effect.h"
 #include "sim/terrain/rft_facets.h"
 #include "sim/terrain/rft_settings.h"
 #include "sim/terrain/terrain.h"
@@ -30,6 +36,9 @@ class RftTerrain final : public Terrain {
  public:
   /// @throws std::invalid_argument for settings that validate() refuses
   explicit RftTerrain(const RftTerrainSettings& settings);
+
+  /// Optional physics, before the first interval.
+  void add_effect(std::unique_ptr<SoilEffect> effect);
 
   /// @throws std::invalid_argument where the mesh has no area
   int add_body(const TriangleMesh& mesh, const Pose& pose) override;
@@ -50,14 +59,21 @@ class RftTerrain final : public Terrain {
     Eigen::Vector3d stress_Pa = Eigen::Vector3d::Zero();
     /// Work taken in that may come back, J/m^2.
     double stored_J_m2 = 0;
+    /// Level way since it entered the sand.
+    double shear_m = 0;
   };
 
   /// Stress of flowing sand over alpha.
   double scale_Pa(double depth_m) const;
   void update(Contact& contact, const Eigen::Vector3d& normal_W, double depth_m,
               const Eigen::Vector3d& moved_m, double interval_s) const;
+  SoilContact as_soil_contact(const Contact& contact, double depth_m, double alpha,
+                              double speed_m_s) const;
+  double effect_factor(const SoilContact& contact) const;
 
   RftTerrainSettings settings_;
+  std::vector<std::unique_ptr<SoilEffect>> effects_;
+  double time_s_ = 0;
   std::vector<std::vector<Contact>> bodies_;
   double work_J_ = 0;
 };

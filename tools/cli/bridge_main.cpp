@@ -20,6 +20,8 @@ struct BridgeOptions {
   std::string terrain;
   BusOptions bus;
   FaultOptions faults;
+  std::string effects;
+  std::filesystem::path conceal;
   RunOptions run;
 };
 
@@ -32,6 +34,7 @@ void add_options(CLI::App& app, BridgeOptions& options) {
       ->type_name("dem|rft|rigid")
       ->check(CLI::IsMember({"dem", "rft", "rigid"}));
   add_fault_options(app, options.faults);
+  add_effect_options(app, options.effects, options.conceal);
   add_run_options(app, options.run);
   app.footer(
       fault_help() +
@@ -46,7 +49,8 @@ void add_options(CLI::App& app, BridgeOptions& options) {
 void run(const BridgeOptions& options) {
   const double no_checkpoints = 0;  // a firmware elsewhere cannot be taken back to one
   const RunOutput output{options.run.out,   options.run.force, options.run.live,
-                         options.run.quiet, no_checkpoints,    bus_choice(options.bus)};
+                         options.run.quiet, no_checkpoints,    bus_choice(options.bus),
+                         options.conceal};
   std::vector<std::string> overrides = {"experiment.bus=\"" + options.bus.bus + "\""};
   if (!options.terrain.empty()) {
     overrides.push_back("experiment.terrain=\"" + options.terrain + "\"");
@@ -57,7 +61,9 @@ void run(const BridgeOptions& options) {
   }
   overrides.insert(overrides.end(), options.run.settings.begin(), options.run.settings.end());
   add_fault_overrides(options.faults, overrides);
-  run_experiment(read_run_settings(options.experiment, overrides, options.faults.file), output);
+  run_experiment(
+      read_run_settings(options.experiment, overrides, options.faults.file, options.effects),
+      output);
 }
 
 }  // namespace

@@ -154,6 +154,9 @@ std::string examples(Experiment experiment) {
            "  hoof sinkage --foot bionic --toe 30 --load 400N --out runs/toe-30 --force\n"
            "  hoof sinkage --terrain rigid --faults tools/faults/example.toml\n"
            "  hoof sinkage --terrain rft --soil soil.toml\n"
+           "  hoof sinkage --terrain rft --effects answer/improved.toml\n"
+           "  hoof sinkage --terrain rft --effects play.toml --conceal truth.toml --out "
+           "runs/sealed\n"
            "  hoof sinkage --terrain rigid --firmware emulated\n"
            "  hoof sinkage --resume runs/toe-30.resume\n"
            "  hoof sinkage --bus vcan0                          firmware and plant as two "
@@ -201,7 +204,7 @@ const char* name_of(Experiment experiment) {
 
 /// hoof-firmware and hoof-bridge with the same settings.
 void run_on_bus(const RunSettings& run, const RunOutput& output,
-                const std::vector<std::string>& overrides, const std::string& fault_file) {
+                const std::vector<std::string>& overrides, const ExperimentOptions& options) {
   std::vector<std::string> what = {"--experiment", run.kind};
   const auto add = [&what](const std::string& flag, const std::string& value) {
     what.insert(what.end(), {flag, value});
@@ -209,7 +212,9 @@ void run_on_bus(const RunSettings& run, const RunOutput& output,
   add("--clock", output.bus.real_time ? "real-time" : "lock-step");
   add("--patience", std::to_string(output.bus.patience_s));
   for (const std::string& setting : overrides) add("--set", setting);
-  if (!fault_file.empty()) add("--faults", fault_file);
+  if (!options.faults.file.empty()) add("--faults", options.faults.file);
+  if (!options.effects.empty()) add("--effects", options.effects);
+  if (!options.conceal.empty()) add("--conceal", options.conceal.string());
   if (!output.out.empty()) add("--out", output.out.string());
   if (output.force) what.emplace_back("--force");
   if (output.live) what.emplace_back("--live");
@@ -233,17 +238,18 @@ void run_or_resume(const ExperimentOptions& options, Experiment experiment) {
                          options.run.live,
                          options.run.quiet,
                          options.checkpoint_every_min * kMinute_s,
-                         bus_choice(options.bus)};
+                         bus_choice(options.bus),
+                         options.conceal};
   if (!options.resume.empty()) {
     resume_experiment(kind, options.resume, output);
     return;
   }
   const std::vector<std::string> overrides = settings_overrides(options);
-  const RunSettings run = read_run_settings(kind, overrides, options.faults.file);
+  const RunSettings run = read_run_settings(kind, overrides, options.faults.file, options.effects);
   if (run.bus == kInProcess) {
     run_experiment(run, output);
   } else {
-    run_on_bus(run, output, overrides, options.faults.file);
+    run_on_bus(run, output, overrides, options);
   }
 }
 
@@ -290,6 +296,7 @@ void add_experiment_options(CLI::App& command, ExperimentOptions& options, Exper
       ->check(one_of({"host", "emulated"}));
   add_bus_options(command, options.bus);
   add_fault_options(command, options.faults);
+  add_effect_options(command, options.effects, options.conceal);
   add_run_options(command, options.run);
   add_resume_options(command, options);
   command.footer(fault_help() + examples(experiment));

@@ -32,6 +32,8 @@ struct ExperimentOptions {
   BusOptions bus;                   ///< not given: firmware and plant in this process
   std::string firmware;             ///< host or emulated
   FaultOptions faults;              ///< put in on the way; none in a clean run
+  std::string effects;              ///< file of physics beyond the nominal plant
+  std::filesystem::path conceal;    ///< where those are told, and nowhere else
   std::filesystem::path resume;     ///< folder of an unfinished run; its settings hold, not these
   double checkpoint_every_min = RunOutput().checkpoint_every_s / 60;
 };

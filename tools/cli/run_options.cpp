@@ -32,4 +32,19 @@ void add_run_options(CLI::App& command, RunOptions& options) {
   command.add_flag("--quiet", options.quiet, "Show no progress");
 }
 
+void add_effect_options(CLI::App& command, std::string& effects, std::filesystem::path& conceal) {
+  CLI::Option* file =
+      command
+          .add_option("--effects", effects,
+                      "Physics beyond the nominal plant: TOML, as hoof diagnose's improved.toml")
+          ->type_name("FILE")
+          ->check(CLI::ExistingFile);
+  command
+      .add_option("--conceal", conceal,
+                  "Leave the effects, and what no bench measures, out of the run's folder; tell "
+                  "them in FILE only")
+      ->type_name("FILE")
+      ->needs(file);
+}
+
 }  // namespace hoof::tools

@@ -20,6 +20,9 @@ struct RunOptions {
   bool quiet = false;                 ///< no progress
 };
 
+/// Adds --effects and --conceal: physics beyond the nominal plant, and where it is told of it.
+void add_effect_options(CLI::App& command, std::string& effects, std::filesystem::path& conceal);
+
 /// Adds --out --force --seed --threads --set --live --quiet to `command`.
 void add_run_options(CLI::App& command, RunOptions& options);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tools/diagnose/evidence_text.h"
+#include "tools/diagnose/foot_effects.h"
 #include "tools/diagnose/judge.h"
 #include "tools/diagnose/next_experiment.h"
 #include "tools/diagnose/quality.h"
@@ -26,14 +27,13 @@ class Diagnosis {
       : model_(model), options_(options), fitter_(model) {}
 
   Verdict run() {
-    SearchOptions search_options;
+    SearchOptions search_options = model_.costly() ? frugal_search() : SearchOptions();
     search_options.threads = options_.threads;
     search_options.progress = options_.progress;
     if (model_.quick()) {
       // All starts are followed, and long valleys (k_phi against n) to their end.
       search_options.iterations = 60;
       search_options.fits_of_single = 8;
-      search_options.least_gain = 0;
     }
     result_ = search(fitter_, search_options);
     judgement_ = judge(fitter_, result_);
@@ -246,7 +246,9 @@ Verdict diagnose(const std::vector<DataSet>& data_sets, const DiagnoseOptions& o
   const auto model = make_rig_model(data_sets);
   try {
     Verdict verdict = Diagnosis(*model, options).run();
+    name_joints(verdict);
     for (const DataSet& data_set : data_sets) {
+      if (data_set.rig == RigKind::kFootHil) continue;  // by our own recorder
       for (QualityNote& note : check_quality(data_set)) verdict.quality.push_back(std::move(note));
     }
     for (QualityNote& note : model->notes()) verdict.quality.push_back(std::move(note));

@@ -7,12 +7,14 @@
 
 #include "sim/config/settings.h"
 #include "tools/diagnose/toml_view.h"
+#include "tools/report/display_unit.h"
 #include "tools/run/csv_writer.h"
 
 namespace hoof::tools {
 namespace {
 
 constexpr int kFormat = 1;
+constexpr int kDigits = 4;  // of what stands in comments
 
 using Words = std::vector<std::string>;
 
@@ -27,7 +29,10 @@ ActiveEffect read_effect(const TomlView& effects, const std::string& name) {
   const TomlView table = effects.table(name);
   Words known;
   for (const sim::EffectParameter& p : effect.info->parameters) known.emplace_back(p.name);
+  const std::string joint = "joint";
+  if (effect.info->make_joint) known.push_back(joint);
   table.allow_only(known, "parameter of " + name);
+  if (table.has(joint)) effect.joint = table.choice(joint, Words{"toe", "hip", "knee"});
   for (const sim::EffectParameter& p : effect.info->parameters) {
     const std::string key(p.name);
     const double value = table.number(key, Allowed::kAny);
@@ -61,7 +66,8 @@ std::string line(const std::string& key, double value, const std::string& commen
 
 std::string comment_of(const ParameterEstimate& p) {
   std::string text = p.unit == "1" ? "" : p.unit + ", ";
-  return text + "95 %: " + format_number(p.low95) + " to " + format_number(p.high95);
+  return text + "95 %: " + format_significant(p.low95, kDigits) + " to " +
+         format_significant(p.high95, kDigits);
 }
 
 }  // namespace
@@ -115,8 +121,10 @@ std::string effects_file_text(const Verdict& verdict, const std::vector<std::str
       text += "# " + std::string(info->summary) + "\n# " + std::string(info->equation) + "\n";
     }
     text += "[effects." + toml_key(name) + "]\n";
-    for (const ParameterEstimate& p : found->parameters)
+    for (const ParameterEstimate& p : found->parameters) {
       text += line(p.name, p.value, comment_of(p));
+    }
+    if (!found->joint.empty()) text += "joint = \"" + found->joint + "\"\n";
   }
   return text;
 }

@@ -1,10 +1,12 @@
 #include "tools/diagnose/next_experiment.h"
 
+#include "tools/diagnose/foot_effects.h"
+
 namespace hoof::tools {
 namespace {
 
 std::string experiment_of(const std::string& effect) {
-  const sim::EffectInfo* info = sim::find_effect(effect);
+  const sim::EffectInfo* info = sim::find_effect(plain_effect_name(effect));
   return info ? std::string(info->experiment) : "";
 }
 

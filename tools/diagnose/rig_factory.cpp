@@ -1,6 +1,6 @@
 // The rig of some data sets.
+#include "tools/diagnose/foot_model.h"
 #include "tools/diagnose/pendulum_model.h"
-#include "tools/diagnose/press_model.h"
 #include "tools/diagnose/press_model.h"
 #include "tools/diagnose/rig_model.h"
 #include "tools/run/errors.h"
@@ -23,6 +23,8 @@ std::unique_ptr<RigModel> make_rig_model(const std::vector<DataSet>& data_sets) 
   switch (rig) {
     case RigKind::kServoPendulum:
       return std::make_unique<PendulumModel>(data_sets);
+    case RigKind::kFootHil:
+      return std::make_unique<FootModel>(data_sets);
     case RigKind::kPlateSand:
     case RigKind::kRigidPress:
       return std::make_unique<PressModel>(data_sets);

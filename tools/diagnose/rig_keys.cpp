@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "tools/experiment/run_effects.h"
+
 namespace hoof::tools {
 namespace {
 
@@ -48,6 +50,15 @@ RigKeys press(RigKind rig, const std::string& name) {
                     {"wall_distance", kPositive}}};
 }
 
+/// Numbers of the foot's plant; what is not stated is as the session's settings have it.
+RigKeys foot_hil() {
+  RigKeys keys{.rig = RigKind::kFootHil, .name = "foot_hil", .channels = {}, .setup = {}};
+  for (const SetupNumber& number : setup_numbers()) {
+    keys.setup.push_back({number.name, number.low > 0 ? kPositive : kNotNegative});
+  }
+  return keys;
+}
+
 bool contains(const std::vector<std::string>& list, const std::string& name) {
   return std::find(list.begin(), list.end(), name) != list.end();
 }
@@ -84,11 +95,9 @@ Lack missing_of_law(const Setup& setup, const std::vector<std::string>& channels
 }  // namespace
 
 const std::vector<RigKeys>& all_rig_keys() {
-  static const std::vector<RigKeys> rigs = {
-      servo_pendulum(),
-      press(RigKind::kPlateSand, "plate_sand"),
-      press(RigKind::kRigidPress, "rigid_press"),
-      {.rig = RigKind::kFootHil, .name = "foot_hil", .channels = {}, .setup = {}}};
+  static const std::vector<RigKeys> rigs = {servo_pendulum(),
+                                            press(RigKind::kPlateSand, "plate_sand"),
+                                            press(RigKind::kRigidPress, "rigid_press"), foot_hil()};
   return rigs;
 }
 

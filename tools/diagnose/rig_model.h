@@ -23,6 +23,7 @@ struct DoubtfulValue {
 struct ActiveEffect {
   const sim::EffectInfo* info = nullptr;
   std::vector<double> values;  // in the order of info->parameters
+  std::string joint = {};      // of an effect at one joint of the foot, as a file names it
 };
 
 /// What a model is asked for.
@@ -71,6 +72,9 @@ class RigModel {
     double value = 0, low95 = 0, high95 = 0;
   };
   virtual std::vector<Counted> counted(const sim::EffectInfo& /*effect*/) const { return {}; }
+
+  /// True where a prediction takes so long that a search must look at the most promising only.
+  virtual bool costly() const { return false; }
 
   /// Safe to call from several threads. Same arguments, same bytes.
   /// @param setup values in the order of doubtful()

@@ -14,8 +14,8 @@ namespace {
 constexpr double kLeastVariance = 0.8;
 /// A start is scaled to the size the recordings ask for, by no more than this.
 constexpr double kMostScale = 30;
-/// Contenders that are fitted anew with the noise as the best of them leaves it.
-constexpr int kContenders = 16;
+/// Of its start's size, where an effect does nothing to speak of.
+constexpr double kAlmostNothing = 1e-4;
 /// Residuals count for no less than one in this many.
 constexpr double kLeastEffective = 1.0 / 200;
 
@@ -47,6 +47,11 @@ Tangent tangent(const Fitter& fitter, const Fit& fit, const Fitter::Weights& wei
   return t;
 }
 
+Eigen::VectorXd perpendicular(const Tangent& tangent, const Eigen::VectorXd& r) {
+  if (tangent.basis.cols() == 0) return r;
+  return r - tangent.basis * (tangent.basis.transpose() * r);
+}
+
 Effects with(const Effects& effects, const sim::EffectInfo* one) {
   Effects sum = effects;
   sum.push_back(one);
@@ -67,8 +72,7 @@ std::vector<Candidate> starts_beside(const Fitter& fitter, const Fit& base, cons
     x << base.x, start.x.tail(own);
     const int shift = both.size() - alone.size();
     const Eigen::VectorXd r = fitter.residuals(both, x, weights).head(tangent.r.size());
-    Eigen::VectorXd change = r - tangent.r;
-    if (tangent.basis.cols() > 0) change -= tangent.basis * (tangent.basis.transpose() * change);
+    const Eigen::VectorXd change = perpendicular(tangent, r - tangent.r);
     const double square = change.squaredNorm();
     if (!(square > 1e-12)) continue;
     double scale = -tangent.r.dot(change) / square;
@@ -89,8 +93,9 @@ std::vector<Candidate> starts_beside(const Fitter& fitter, const Fit& base, cons
         x[size + shift] *= limited;
       }
     } else {
-      // No size to scale: what the start itself gains.
-      gain = scale > 0 ? 0.5 * std::min(scale, 1.0) * (2 - std::min(scale, 1.0)) * square : 0;
+      // No size to scale: what the start itself gains, the base's own parameters refitted linearly.
+      gain = 0.5 * (perpendicular(tangent, tangent.r).squaredNorm() -
+                    perpendicular(tangent, r).squaredNorm());
     }
     candidates.push_back({both.effects(), x, gain, size >= 0 ? size + shift : -1, by_log});
   }
@@ -107,6 +112,7 @@ class Search {
     fit_nominal();
     fit_singles();
     fit_pairs();
+    polish_best();
     take_noise_of_best();
     fit_contenders();
     say(1, "done");
@@ -142,9 +148,9 @@ class Search {
     std::vector<Fit> fits(candidates.size());
     std::atomic<int> done{0};
     for_each_task(static_cast<int>(candidates.size()), options_.threads, [&](int i) {
-      fits[i] = anew ? settle(best_size(candidates[i]))
-                     : fitter_.fit(candidates[i].effects, candidates[i].x, options_.iterations,
-                                   fitter_.weights());
+      fits[i] = anew ? follow_one(candidates[i])
+                     : polish(fitter_.fit(candidates[i].effects, candidates[i].x,
+                                          options_.iterations, fitter_.weights()));
       fitter_.judge(fits[i]);
       const double share = ++done / static_cast<double>(candidates.size());
       if (std::this_thread::get_id() == caller_) say(from + (to - from) * share, what);
@@ -163,6 +169,45 @@ class Search {
     }
   }
 
+  /// A hypothesis holds the nominal model: one that comes out worse went astray, and is followed
+  /// once more from there.
+  Fit follow_one(const Candidate& candidate) const {
+    const Fit fit = settle(best_size(candidate));
+    const Fit& nominal = result_.fits[0];
+    if (fit.objective <= nominal.objective || candidate.size_coordinate < 0) return fit;
+    Eigen::VectorXd x = candidate.x;
+    x.head(nominal.x.size()) = nominal.x;
+    double& size = x[candidate.size_coordinate];
+    size = candidate.by_log ? size + std::log(kAlmostNothing) : size * kAlmostNothing;
+    const Fit again = fitter_.fit(candidate.effects, x, options_.iterations, fitter_.weights());
+    return again.objective < fit.objective ? again : fit;
+  }
+
+  /// Each coordinate tried both ways, with a step that halves where neither helps.
+  Fit polish(Fit fit) const {
+    constexpr double kFirst = 0.1, kLast = 2e-4;
+    if (options_.polish_steps <= 0 || fit.effects.empty()) return fit;
+    const auto weights = fitter_.weights();
+    double least = fitter_.objective(fit.effects, fit.x, weights);
+    int left = options_.polish_steps;
+    for (double step = kFirst; step > kLast && left > 0;) {
+      bool better = false;
+      for (Eigen::Index i = 0; i < fit.x.size() && left > 0; ++i) {
+        for (const double side : {1.0, -1.0}) {
+          Eigen::VectorXd x = fit.x;
+          x[i] += side * step;
+          const double objective = fitter_.objective(fit.effects, x, weights);
+          --left;
+          if (!(objective < least)) continue;
+          least = objective, fit.x = x, better = true;
+          break;
+        }
+      }
+      if (!better) step *= 0.5;
+    }
+    return fit;
+  }
+
   /// The candidate at the size, of some, that leaves least: a linear step may go too far.
   Fit best_size(const Candidate& candidate) const {
     Fit fit;
@@ -171,7 +216,7 @@ class Search {
     if (candidate.size_coordinate < 0) return fit;
     const auto weights = fitter_.roomy_weights(result_.fits[0].squares, 0.5);
     double least = 1e300;
-    for (const double scale : {1.0, 0.4, 0.15, 0.03}) {
+    for (const double scale : {1.0, 0.4, 0.15, 0.05, 0.01, 1e-3}) {
       Eigen::VectorXd x = candidate.x;
       double& size = x[candidate.size_coordinate];
       size = candidate.by_log ? size + std::log(scale) : size * scale;
@@ -194,8 +239,9 @@ class Search {
     std::vector<Candidate> all;
     for (auto& list : found) {
       if (static_cast<int>(list.size()) > starts) list.resize(starts);
-      const double least = list.empty() ? 0 : options_.least_gain * list[0].gain;
-      std::erase_if(list, [least](const Candidate& c) { return c.gain < least; });
+      const double least = list.empty() ? 0 : 0.3 * std::abs(list[0].gain);
+      std::erase_if(
+          list, [least](const Candidate& c) { return c.size_coordinate >= 0 && c.gain < least; });
       for (Candidate& c : list) all.push_back(std::move(c));
     }
     return all;
@@ -203,7 +249,13 @@ class Search {
 
   void fit_singles() {
     say(0.05, "one effect");
-    follow(look_beside(result_.fits[0], options_.fits_of_single), 0.1, 0.45, "one effect");
+    std::vector<Candidate> singles = look_beside(result_.fits[0], options_.fits_of_single);
+    if (static_cast<int>(singles.size()) > options_.singles) {
+      std::stable_sort(singles.begin(), singles.end(),
+                       [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
+      singles.resize(options_.singles);
+    }
+    follow(singles, 0.1, 0.45, "one effect");
   }
 
   void fit_pairs() {
@@ -211,7 +263,7 @@ class Search {
     std::vector<Fit> singles = ranked();
     std::erase_if(singles,
                   [](const Fit& f) { return f.effects.size() != 1 || !f.effects[0]->listed; });
-    if (singles.size() > 4) singles.resize(4);
+    if (static_cast<int>(singles.size()) > options_.pair_bases) singles.resize(options_.pair_bases);
     std::vector<Candidate> pairs;
     for (const Fit& base : singles) {
       for (Candidate& c : look_beside(base, 1)) {
@@ -243,6 +295,25 @@ class Search {
     std::swap(pair.effects[0], pair.effects[1]);
   }
 
+  /// Of the best: what they leave is to stand for the noise.
+  void polish_best() {
+    if (options_.polish_steps <= 0) return;
+    constexpr std::size_t kBest = 4;
+    say(0.76, "best fits");
+    std::vector<Fit> fits = ranked();
+    std::erase_if(fits, [](const Fit& f) { return f.effects.empty(); });
+    if (fits.size() > kBest) fits.resize(kBest);
+    for_each_task(static_cast<int>(fits.size()), options_.threads, [&](int i) {
+      fits[i] = polish(fits[i]);
+      fitter_.judge(fits[i]);
+    });
+    for (Fit& fit : fits) {
+      for (Fit& known : result_.fits) {
+        if (known.effects == fit.effects) known = fit;
+      }
+    }
+  }
+
   std::vector<Fit> ranked() const {
     std::vector<Fit> fits = result_.fits;
     std::stable_sort(fits.begin(), fits.end(), [this](const Fit& a, const Fit& b) {
@@ -259,7 +330,7 @@ class Search {
     const Fit nominal = result_.fits[0];
     std::vector<Candidate> again = {{nominal.effects, nominal.x, 0, -1, false}};
     for (const Fit& fit : fits) {
-      if (!fit.effects.empty() && static_cast<int>(again.size()) < kContenders) {
+      if (!fit.effects.empty() && static_cast<int>(again.size()) < options_.contenders) {
         again.push_back({fit.effects, fit.x, 0, -1, false});
       }
     }
@@ -336,6 +407,18 @@ void Search::take_noise_of_best() {
 }
 
 }  // namespace
+
+SearchOptions frugal_search() {
+  SearchOptions options;
+  options.fits_of_single = 1;
+  options.pair_fits = 6;
+  options.iterations = 8;
+  options.singles = 10;
+  options.pair_bases = 2;
+  options.contenders = 8;
+  options.polish_steps = 50;
+  return options;
+}
 
 double first_rank(const Fitter& fitter, const Fit& fit) {
   double likelihood = 0, samples = 0;

@@ -13,11 +13,19 @@ struct SearchOptions {
   int threads = 1;
   /// Share done and what is being done; false: stop.
   std::function<bool(double, const std::string&)> progress;
-  int fits_of_single = 2;   // starts of each effect that are followed to the end
-  double least_gain = 0.3;  // of those after the first, of what the first promises
-  int pair_fits = 20;       // pairs that are fitted
+  int fits_of_single = 3;  // starts of each effect that are followed to the end
+  int pair_fits = 20;      // pairs that are fitted
   int iterations = 10;
+  int singles = 1000;   // effects that are fitted alone, those that a first look promises most of
+  int pair_bases = 4;   // single effects that others are tried beside
+  int contenders = 16;  // fitted anew with the noise as the best of them leaves it
+  /// Steps of a search without slopes after each fit of a contender: where events in a rollout,
+  /// such as an end stop that is met a tick later, make its squares ragged. 0: none.
+  int polish_steps = 0;
 };
+
+/// For rigs whose rollout takes a good part of a second.
+SearchOptions frugal_search();
 
 struct SearchResult {
   std::vector<Fit> fits;  // judged with the same groups; the first is the nominal model

@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 
+#include "tools/diagnose/foot_effects.h"
 #include "tools/diagnose/toml_view.h"
 #include "tools/run/errors.h"
 
@@ -37,7 +38,11 @@ class SquareSum {
 void require_usable(const RigModel& model, const EffectsFile& file) {
   for (const ActiveEffect& effect : file.effects) {
     const auto& usable = model.effects();
-    if (std::find(usable.begin(), usable.end(), effect.info) != usable.end()) continue;
+    const auto fits = [&effect](const sim::EffectInfo* info) {
+      return plain_effect_name(info->name) == effect.info->name &&
+             (effect.joint.empty() || joint_of_effect(info->name) == effect.joint);
+    };
+    if (std::any_of(usable.begin(), usable.end(), fits)) continue;
     std::vector<std::string> names;
     for (const sim::EffectInfo* info : usable) {
       if (info->listed) names.emplace_back(info->name);

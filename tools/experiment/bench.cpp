@@ -17,7 +17,7 @@ namespace {
 std::unique_ptr<sim::Rig> make_rig(const RunSettings& run) {
   if (run.is_sinkage()) {
     sim::SinkageRigSettings s;
-    s.foot = run.foot;
+    s.foot = foot_with_effects(run);
     s.load_N = run.sinkage.load_N;
     s.load_as = run.sinkage.load_as;
     s.start_height_m = run.sinkage.start_height_m;
@@ -25,10 +25,10 @@ std::unique_ptr<sim::Rig> make_rig(const RunSettings& run) {
   }
   const sim::FootPoint top = run.traction.ellipse.at(0);
   if (run.traction.prescribed) {
-    return std::make_unique<sim::PrescribedRig>(run.foot, *run.leg, top);
+    return std::make_unique<sim::PrescribedRig>(foot_with_effects(run), *run.leg, top);
   }
   sim::TractionRigSettings s;
-  s.foot = run.foot;
+  s.foot = foot_with_effects(run);
   s.leg = *run.leg;
   s.start_x_m = top.x_m;
   s.start_z_m = top.z_m;
@@ -53,7 +53,11 @@ std::unique_ptr<sim::Terrain> make_terrain(const RunSettings& run, const BenchPr
                                            const BenchNote& note,
                                            const std::optional<sim::JournalSettings>& journal) {
   if (run.terrain == "rigid") return std::make_unique<sim::RigidTerrain>(run.rigid);
-  if (run.terrain == "rft") return std::make_unique<sim::RftTerrain>(run.rft);
+  if (run.terrain == "rft") {
+    auto soil = std::make_unique<sim::RftTerrain>(run.rft);
+    add_soil_effects(run, *soil);
+    return soil;
+  }
   const Eigen::Vector2d print_m = footprint_m(run.foot, run.toe_rad());
   for (const std::string& warning : sim::box_warnings(run.bed, print_m.x(), print_m.y())) {
     note(warning);
@@ -71,6 +75,7 @@ std::unique_ptr<sim::Experiment> make_experiment(
     const std::optional<sim::JournalSettings>& journal) {
   auto plant = std::make_unique<sim::Plant>(
       make_rig(run), run.drives, make_terrain(run, progress, note, journal), run.coupling);
+  add_joint_effects(run, *plant);
   if (run.is_sinkage()) return std::make_unique<sim::Sinkage>(run.sinkage, std::move(plant));
   return std::make_unique<sim::Traction>(run.traction, std::move(plant));
 }

@@ -16,15 +16,17 @@ std::vector<std::string> columns(const RunSettings& run) {
                                     "sink_speed_m_s", "foot_x_m",   "foot_z_m",
                                     "fx_N",           "fy_N",       "fz_N"};
   if (run.foot.has_toes) {
-    for (const char* name : {"toe_command_rad", "toe_measured_rad", "toe_left_rad", "toe_right_rad",
-                             "toe_torque_Nm"}) {
-      names.emplace_back(name);
+    for (const char* name : {"toe_command_rad", "toe_measured_rad"}) names.emplace_back(name);
+    if (!run.concealed) {
+      for (const char* name : {"toe_left_rad", "toe_right_rad", "toe_torque_Nm"}) {
+        names.emplace_back(name);
+      }
     }
   }
   if (run.firmware_leg()) {
-    for (const char* name : {"hip_command_rad", "hip_measured_rad", "hip_torque_Nm",
-                             "knee_command_rad", "knee_measured_rad", "knee_torque_Nm"}) {
-      names.emplace_back(name);
+    for (const std::string joint : {"hip", "knee"}) {
+      names.insert(names.end(), {joint + "_command_rad", joint + "_measured_rad"});
+      if (!run.concealed) names.push_back(joint + "_torque_Nm");
     }
   }
   return names;
@@ -63,18 +65,21 @@ std::vector<CsvCell> Recorder::cells(const bridge::TickRecord& r) const {
       o.time_s,     sim::to_string(o.phase), o.depth_m,      o.sink_speed_m_s, o.foot_m.x(),
       o.foot_m.z(), o.ground_N.x(),          o.ground_N.y(), o.ground_N.z()};
   if (run_.foot.has_toes) {
-    for (const double v :
-         {double(r.firmware.toe_set_point_rad), double(r.firmware.state[0].position_rad),
-          o.toe_left_rad, o.toe_right_rad, r.torques.mean_Nm[0]}) {
-      row.emplace_back(v);
+    row.emplace_back(double(r.firmware.toe_set_point_rad));
+    row.emplace_back(double(r.firmware.state[0].position_rad));
+    if (!run_.concealed) {
+      for (const double v : {o.toe_left_rad, o.toe_right_rad, r.torques.mean_Nm[0]}) {
+        row.emplace_back(v);
+      }
     }
   }
   if (run_.firmware_leg()) {
     const auto& wanted = r.firmware.leg_set_point_rad;
-    for (const double v : {double(wanted.hip_rad), double(r.firmware.state[1].position_rad),
-                           r.torques.mean_Nm[1], double(wanted.knee_rad),
-                           double(r.firmware.state[2].position_rad), r.torques.mean_Nm[2]}) {
-      row.emplace_back(v);
+    const double command_rad[] = {double(wanted.hip_rad), double(wanted.knee_rad)};
+    for (const int joint : {1, 2}) {
+      row.emplace_back(command_rad[joint - 1]);
+      row.emplace_back(double(r.firmware.state[joint].position_rad));
+      if (!run_.concealed) row.emplace_back(r.torques.mean_Nm[joint]);
     }
   }
   return row;

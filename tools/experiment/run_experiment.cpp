@@ -1,5 +1,6 @@
 #include "tools/experiment/run_experiment.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <iostream>
@@ -13,6 +14,7 @@
 #include "tools/experiment/section_view.h"
 #include "tools/experiment/summary.h"
 #include "tools/report/report.h"
+#include "tools/run/csv_writer.h"
 #include "tools/run/errors.h"
 #include "tools/run/output_file.h"
 #include "tools/run/progress_line.h"
@@ -50,7 +52,10 @@ Places new_places(const RunSettings& run, const RunOutput& output) {
     places.resume = ResumeFolder::begin(path, run.kind, run.tree.to_toml(), output.force);
     if (places.resume) {
       // Without grains a run is done sooner than resumed.
-      if (!run.on_grains() || output.checkpoint_every_s == 0) places.resume.reset();
+      // The folder of a run that can be resumed tells all of it.
+      if (!run.on_grains() || output.checkpoint_every_s == 0 || run.concealed) {
+        places.resume.reset();
+      }
       return places;
     }
     if (!output.out.empty()) {
@@ -58,6 +63,27 @@ Places new_places(const RunSettings& run, const RunOutput& output) {
     }
     // Another run was given this default name at the same moment; there is a next one.
   }
+}
+
+/// As it may be known: a concealed run's settings are those of the nominal plant.
+const sim::Settings& shown_settings(const RunSettings& run) {
+  return run.concealed ? run.declared : run.tree;
+}
+
+void write_truth(const RunSettings& run, const RunOutput& output) {
+  const bool told = std::any_of(
+      run.declared.entries().begin(), run.declared.entries().end(), [](const auto& entry) {
+        return entry.first.starts_with("effects.") || entry.first.starts_with("setup.");
+      });
+  if (told) {
+    throw UserError(
+        "--conceal: the settings themselves tell effects; only those of --effects FILE "
+        "can be withheld");
+  }
+  if (std::filesystem::exists(output.truth) && !output.force) {
+    throw UserError("--conceal " + output.truth.string() + ": exists; --force replaces it");
+  }
+  write_file(output.truth, effects_toml(run, "Withheld from the folder of a " + run.kind + " run."));
 }
 
 class Run {
@@ -102,7 +128,7 @@ class Run {
     connect();
     // Of a resumed run as it was written first, with the origin of each value.
     write_file(folder_->file("settings.toml"),
-               resume_ ? resume_->settings_toml() : run_.tree.to_toml());
+               resume_ ? resume_->settings_toml() : shown_settings(run_).to_toml());
     experiment_ = build();
     journal_ = dynamic_cast<sim::JournaledTerrain*>(&experiment_->plant().terrain());
     const double built_s = seconds_since(start);
@@ -117,7 +143,7 @@ class Run {
     nlohmann::ordered_json result = summarise(run_, *experiment_, session, *recorder_);
     if (const auto bus = bus_->report(); !bus.is_null()) result["bus"] = bus;
     write_result_json(folder_->file("result.json"), result);
-    if (sand != nullptr) {
+    if (sand != nullptr && !run_.concealed) {
       write_file(folder_->file("section.svg"),
                  draw_section(untouched, sand->state(), experiment_->plant().rig(),
                               run_.bed.d50_m(), cut_y_m()));
@@ -259,22 +285,36 @@ class Run {
           r.at("fz_at_fx_peak_N").get<double>(), r.at("traction_coefficient").get<double>(),
           mm("ellipse_error_m"));
     }
-    if (run_.foot.has_toes) {
+    if (run_.concealed) {
+      std::printf("what was added to the plant stands in %s\n", output_.truth.string().c_str());
+    } else {
+      for (const EffectText& effect : effect_texts(run_)) {
+        std::printf("with %s: %s\n", effect.name.c_str(), effect.values.c_str());
+      }
+      for (const auto& [name, value] : run_.setup) {
+        std::printf("with %s = %s\n", name.c_str(), format_number(value).c_str());
+      }
+    }
+    if (run_.foot.has_toes && !run_.concealed) {
       std::printf("toes: ordered %.2f deg, reached %.2f, moved by the sand at most %.2f\n",
                   deg("toe_command_rad"), deg("toe_reached_rad"), deg("toe_deflection_rad"));
     }
     print_faults(r);
     if (run_.terrain == "rft") std::printf("%s\n", soil_line(run_).c_str());
-    for (const auto& [joint, limited_s] : r.at("torque_limited_s").items()) {
-      if (limited_s.get<double>() > 0) {
-        std::printf("%s drive: at its torque limit for %.2f s\n", joint.c_str(),
-                    limited_s.get<double>());
-      }
-    }
+    if (!run_.concealed) print_limited(r);
     std::fputs(bus_->text().c_str(), stdout);
     if (r.contains("resolution")) {
       for (const auto& claim : r["resolution"]["claims_refused"]) {
         std::printf("cannot say: %s\n", claim.get<std::string>().c_str());
+      }
+    }
+  }
+
+  static void print_limited(const nlohmann::ordered_json& r) {
+    for (const auto& [joint, limited_s] : r.at("torque_limited_s").items()) {
+      if (limited_s.get<double>() > 0) {
+        std::printf("%s drive: at its torque limit for %.2f s\n", joint.c_str(),
+                    limited_s.get<double>());
       }
     }
   }
@@ -294,7 +334,9 @@ class Run {
 
 }  // namespace
 
-void run_experiment(const RunSettings& run, const RunOutput& output) {
+void run_experiment(RunSettings run, const RunOutput& output) {
+  run.concealed = !output.truth.empty();
+  if (run.concealed) write_truth(run, output);
   Run(run, output, new_places(run, output)).go();
 }
 

@@ -17,11 +17,13 @@ struct RunOutput {
   /// Between checkpoints of the grains, by the clock; 0: the run cannot be resumed.
   double checkpoint_every_s = sim::JournalSettings().checkpoint_every_s;
   BusChoice bus;  // of a run with its firmware on a CAN interface
+  /// The run's effects stand here and nowhere in its folder; empty: nothing is concealed.
+  std::filesystem::path truth;
 };
 
 /// Runs, writes the folder and its report, prints the summary; the folder's path is the last line.
 /// @throws UserError, sim::ConfigError, CannotFinish, Interrupted
-void run_experiment(const RunSettings& run, const RunOutput& output);
+void run_experiment(RunSettings run, const RunOutput& output);
 
 /// Finishes a run that was cut off: its folder ends with the bytes of an undisturbed run.
 /// @param kind "sinkage" or "traction"  @param folder "<run>.resume", or "<run>"

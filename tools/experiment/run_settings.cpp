@@ -19,9 +19,9 @@ namespace {
 
 using firmware::app::Parameters;
 
-constexpr std::array<std::string_view, 12> kSections = {
-    "experiment", "foot",        "leg",           "bed",     "materials", "drives",
-    "coupling",   "rft_terrain", "rigid_terrain", "control", "use",       "fault"};
+constexpr std::array<std::string_view, 14> kSections = {
+    "experiment",  "foot",          "leg",     "bed", "materials", "drives",  "coupling",
+    "rft_terrain", "rigid_terrain", "control", "use", "fault",     "effects", "setup"};
 
 void refuse_unknown_sections(const sim::Settings& tree) {
   for (const auto& [key, entry] : tree.entries()) {
@@ -31,7 +31,7 @@ void refuse_unknown_sections(const sim::Settings& tree) {
                              std::string(section) +
                              "'; known are experiment, foot, leg, bed, "
                              "materials, drives, coupling, rft_terrain, rigid_terrain, control, "
-                             "fault");
+                             "fault, effects, setup");
     }
   }
 }
@@ -186,10 +186,12 @@ std::array<bool, sim::kJointCount> RunSettings::has_drives() const {
 
 RunSettings read_run_settings(const std::string& experiment,
                               const std::vector<std::string>& overrides,
-                              const std::string& fault_file) {
+                              const std::string& fault_file, const std::string& effects_file) {
   RunSettings run;
   run.tree = sim::Settings::load_experiment(experiment, overrides);
   if (!fault_file.empty()) merge_faults(fault_file, run.tree);
+  run.declared = run.tree;
+  if (!effects_file.empty()) merge_effects(effects_file, run.tree);
   refuse_unknown_sections(run.tree);
   const sim::Reader root(run.tree);
   read_experiment(root, run);
@@ -213,6 +215,7 @@ RunSettings read_run_settings(const std::string& experiment,
   run.parameters = rig_parameters(run);
   read_control(run.tree, run.parameters);
   read_faults(run);
+  read_run_effects(run);  // last: what the firmware is told of the plant is the nominal one
   return run;
 }
 

@@ -17,16 +17,18 @@
 #include "sim/terrain/bed_settings.h"
 #include "sim/terrain/rft_settings.h"
 #include "sim/terrain/rigid_terrain.h"
+#include "tools/experiment/run_effects.h"
 
 namespace hoof::tools {
 
 struct RunSettings {
-  sim::Settings tree;  // everything as resolved; written beside the results
-  std::string kind;    // "sinkage" or "traction"
+  sim::Settings tree;      // everything as resolved; written beside the results
+  sim::Settings declared;  // the same without what --effects added
+  std::string kind;        // "sinkage" or "traction"
   std::string foot_name;
   std::string terrain;  // "dem", "rft" or "rigid"
   std::string bus;      // "in_process", or SocketCAN interfaces
-  std::string image;  // the board's, an ELF file; empty: the firmware runs in this process
+  std::string image;    // the board's, an ELF file; empty: the firmware runs in this process
   std::uint64_t seed = 0;
   int threads = 1;
 
@@ -42,6 +44,11 @@ struct RunSettings {
   sim::TractionSettings traction;  // of a traction run
   firmware::app::Parameters parameters;
   std::vector<bridge::FaultSpec> faults;  // put in on the way; none in a clean run
+  std::vector<RunEffect> effects;         // beyond the nominal plant; none unless asked for
+  std::map<std::string, double> setup;    // numbers of the plant set anew beside them, SI
+  /// The run's folder shall look like one of a real machine's bench: it tells neither effects nor
+  /// what only a simulator knows.
+  bool concealed = false;
 
   bool on_grains() const { return terrain == "dem"; }
   bool is_sinkage() const { return kind == "sinkage"; }
@@ -53,9 +60,11 @@ struct RunSettings {
 /// @param experiment "sinkage", "traction" or a TOML file of one
 /// @param overrides "dotted.key=value", as of --set; keys "control.NAME" are firmware parameters
 /// @param fault_file TOML with [[fault]] entries and nothing else; "" for none
+/// @param effects_file TOML as `hoof diagnose` writes it: [effects.NAME], [setup]; "" for none
 /// @throws sim::ConfigError, UserError: one line that names file, key, value and bound
 RunSettings read_run_settings(const std::string& experiment,
                               const std::vector<std::string>& overrides,
-                              const std::string& fault_file = "");
+                              const std::string& fault_file = "",
+                              const std::string& effects_file = "");
 
 }  // namespace hoof::tools

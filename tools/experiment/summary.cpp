@@ -206,13 +206,21 @@ Json summarise(const RunSettings& run, const sim::Experiment& experiment,
     j["fx_peak_time_s"] = peaks.fx_peak_time_s;
     j["ellipse_error_m"] = recorder.ellipse_error_m();
   }
+  if (!run.effects.empty() && !run.concealed) {
+    for (const EffectText& effect : effect_texts(run)) j["effects"][effect.name] = effect.values;
+  }
+  if (!run.setup.empty() && !run.concealed) j["setup"] = run.setup;
   if (run.foot.has_toes) {
     j["toe_command_rad"] = session.toe_command_rad;
-    j["toe_reached_rad"] = session.toe_reached_rad;
-    j["toe_deflection_rad"] = session.toe_deflection_rad;
+    if (!run.concealed) {
+      j["toe_reached_rad"] = session.toe_reached_rad;
+      j["toe_deflection_rad"] = session.toe_deflection_rad;
+    }
   }
-  j["torque_peak_Nm"] = by_joint(run, session.torque_peak_Nm);
-  j["torque_limited_s"] = by_joint(run, session.torque_limited_s);
+  if (!run.concealed) {
+    j["torque_peak_Nm"] = by_joint(run, session.torque_peak_Nm);
+    j["torque_limited_s"] = by_joint(run, session.torque_limited_s);
+  }
   j["gate_interventions"] = session.gate_interventions;
   j["bus_load_ratio"] = by_bus(session.bus_load_ratio);
   j["worst_bus_load_ratio"] = by_bus(session.worst_bus_load_ratio);
@@ -220,9 +228,11 @@ Json summarise(const RunSettings& run, const sim::Experiment& experiment,
     j["faults"] = faults(session);
     j["reaction"] = reaction(session);
   }
-  const sim::ExchangeEnergy energy = experiment.plant().exchange_energy();
-  j["exchange_work_J"] = energy.work_by_terrain_J;
-  j["exchange_error_J"] = energy.error_J();
+  if (!run.concealed) {
+    const sim::ExchangeEnergy energy = experiment.plant().exchange_energy();
+    j["exchange_work_J"] = energy.work_by_terrain_J;
+    j["exchange_error_J"] = energy.error_J();
+  }
   j["ground"] = ground(run, experiment);
   if (run.on_grains()) j["resolution"] = resolution(run, depth);
   j["firmware"] = firmware_identity(run);

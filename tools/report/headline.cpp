@@ -26,6 +26,8 @@ constexpr std::array kRules = {
     HeadlineRule{"Stance frequency", Source::kSettings, "experiment", "frequency_Hz"},
     HeadlineRule{"Bed", Source::kSettings, "bed", "name"},
     HeadlineRule{"Ground", Source::kResult, "ground", "terrain"},
+    HeadlineRule{"Added physics", Source::kResult, "", "effects"},
+    HeadlineRule{"Plant set anew", Source::kResult, "", "setup"},
     HeadlineRule{"Fast soil", Source::kResult, "ground", "soil"},
     HeadlineRule{"Hash of the soil", Source::kResult, "ground", "soil_hash"},
     HeadlineRule{"Soil fitted to", Source::kResult, "ground", "fitted_to"},

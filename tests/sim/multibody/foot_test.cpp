@@ -1,6 +1,7 @@
 #include "sim/multibody/foot.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <filesystem>
 
 #include "sim/config/config_error.h"
@@ -58,6 +59,34 @@ TEST_CASE("any closed STL file is a foot, moved to stand on z = 0 about the orig
                     "--set: foot.mesh_unit = \"cm\": must be one of: mm, m");
   fs::remove_all(folder);
   CHECK(foot_overrides("bionic") == std::vector<std::string>{"use.foot=\"bionic\""});
+}
+
+TEST_CASE("worn spines are as deep as what is left of them, and the frustum cut off is gone") {
+  const Foot fresh = shipped_foot("bionic");
+  const SpineGeometry spines = fresh.geometry.spines;
+  const double loss_m = GENERATE(0.0, 0.002, 0.0075, 0.02);
+  const Foot worn = with_worn_spines(fresh, loss_m);
+  const double left_m = std::max(0.0, spines.length_m - loss_m);
+  const auto check = [&](const TriangleMesh& part, const TriangleMesh& before, int count) {
+    double lowest_m = 0;
+    for (const auto& v : part.vertices_m) lowest_m = std::min(lowest_m, v.z());
+    CHECK(lowest_m == Approx(-left_m * std::cos(spines.rake_rad)).margin(1e-12));
+    CHECK_FALSE(find_mesh_fault(part));
+    if (left_m == 0) return;
+    // A raked frustum is as high as its axis' cosine.
+    const double share = loss_m / spines.length_m, tip_m = spines.tip_m;
+    const double end_m = tip_m + share * (spines.base_m - tip_m);
+    const double cut_m3 =
+        loss_m * std::cos(spines.rake_rad) / 3 * (tip_m * tip_m + tip_m * end_m + end_m * end_m);
+    CHECK(volume_m3(before) - volume_m3(part) == Approx(count * cut_m3).margin(1e-14));
+  };
+  check(worn.middle, fresh.middle, 2 * spines.middle_count_row);
+  check(worn.left_toe, fresh.left_toe, spines.toe_count);
+  CHECK(worn.geometry.has_spines == (left_m > 0));
+  CHECK(worn.mass_kg == fresh.mass_kg);
+  if (loss_m == 0) CHECK(worn.middle.vertices_m == fresh.middle.vertices_m);
+  CHECK_THROWS_WITH(with_worn_spines(shipped_foot("bionic-plain"), 0.001),
+                    Catch::Contains("no spines that could wear"));
 }
 
 TEST_CASE("wrong settings of a foot are named") {

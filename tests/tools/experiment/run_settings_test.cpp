@@ -42,7 +42,7 @@ TEST_CASE("what is wrong with a setting is one line with origin, key, value and 
       {"sinkage",
        {"bead.depth_mm=1"},
        "--set: bead.depth_mm: no section 'bead'; known are experiment, foot, leg, bed, materials, "
-       "drives, coupling, rft_terrain, rigid_terrain, control, fault"},
+       "drives, coupling, rft_terrain, rigid_terrain, control, fault, effects, setup"},
       {"sinkage",
        {"bed.depth_cm=12"},
        "--set: bed.depth_cm = 12: unknown key, did you mean depth_mm?"},
