@@ -32,6 +32,7 @@ class PressModel : public RigModel {
   const std::vector<const sim::EffectInfo*>& effects() const override { return effects_; }
   Prediction predict(int recording, std::span<const double> setup,
                      std::span<const ActiveEffect> effects, Rollout rollout) const override;
+  bool quick() const override { return true; }
   std::vector<Condition> conditions(int recording) const override;
   std::vector<QualityNote> notes() const override;
 

@@ -81,6 +81,9 @@ class RigModel {
   virtual Prediction predict(int recording, std::span<const double> setup,
                              std::span<const ActiveEffect> effects, Rollout rollout) const = 0;
 
+  /// A prediction takes no integration in time: a search can afford thousands more of them.
+  virtual bool quick() const { return false; }
+
   /// Conditions in rig channels that tell where an effect may be at work, e.g. "velocity < 0", and
   /// for each sample whether it holds; for the verdict's `where`.
   struct Condition {
