@@ -94,9 +94,12 @@ TEST_CASE("diagnose: parameters that are off by a quarter are no missing physics
   const Verdict verdict = diagnose({set}, {});
   CHECK(verdict.verdict == "none");
   CHECK(verdict.probabilities.at("none") > 0.7);
-  // Refitted, what is left is noise: bounds of four sigma of a variance of 3,000 samples.
-  CHECK(verdict.before.fit.at("position_rmse") == Approx(kPositionNoise_rad).epsilon(0.06));
-  CHECK(verdict.before.fit.at("torque_rmse") == Approx(kTorqueNoise_Nm).epsilon(0.08));
+  // Refitted, what is left is noise, and at the start of each rollout what its first sample's noise
+  // makes: speed is known there to noise / (0.005 s sqrt(10)) = 0.03 rad/s only, a few milliradians
+  // until the loop has drawn them in.
+  CHECK(verdict.before.fit.at("position_rmse") < 2.5 * kPositionNoise_rad);
+  CHECK(verdict.before.fit.at("position_rmse") > 0.95 * kPositionNoise_rad);
+  CHECK(verdict.before.fit.at("torque_rmse") == Approx(kTorqueNoise_Nm).epsilon(0.25));
 }
 
 TEST_CASE("diagnose: one effect is named, with its parameters, and held-out data agree") {
