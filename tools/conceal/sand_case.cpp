@@ -264,7 +264,9 @@ CaseData make_sand_case(const std::string& name, const CaseRequest& request,
     }
     return data;
   }
-  throw CannotFinish(name + ": no presses were found that hide what was drawn");
+  std::string effects;
+  for (const std::string& effect : request.effects) effects += " " + effect;
+  throw CannotFinish(name + ": no presses were found that hide" + effects);
 }
 
 }  // namespace hoof::tools::conceal
