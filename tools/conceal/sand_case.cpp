@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Forces = std::vector<std::vector<double>>;
 
-constexpr int kMostDraws = 200;
+constexpr int kMostDraws = 60;
 constexpr double kLeastStrength = 15.0, kLeastStrengthUnknown = 25.0, kLargestShare = 0.5;
 
 Forces run(const SandPlan& plan, const std::vector<HiddenEffect>& hidden) {

@@ -7,7 +7,7 @@
 namespace hoof::tools::conceal {
 namespace {
 
-constexpr int kMostDraws = 100;
+constexpr int kMostDraws = 25;
 
 }  // namespace
 

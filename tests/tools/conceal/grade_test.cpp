@@ -38,7 +38,7 @@ Json perfect_answer(const TruthCase& truth) {
                  : truth.kind == "not_decidable" ? "not_separable"
                                                  : "missing_physics";
   a["probabilities"] = {{label(truth), 1.0}};
-  if (truth.kind == "not_decidable") a["not_separable"] = {truth.alike};
+  if (truth.kind == "not_decidable") a["not_separable"] = Json::array({Json(truth.alike)});
   for (const HiddenEffect& effect : truth.effects) {
     Json parameters = Json::object();
     for (const EffectParameter& p : effect.parameters) {
