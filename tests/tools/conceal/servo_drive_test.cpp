@@ -97,15 +97,15 @@ TEST_CASE("heat follows the square of the current and takes torque in proportion
   e.gain = 10.0;
   e.goal.offset = 0.05;
   const double current = 0.5 / m.kt_Nm_A;
-  const auto hot =
-      hidden("thermal_derating",
-             {{"fraction", 0.2, "1"}, {"time_constant", 2.0, "s"}, {"_reference", current, "A"}});
+  const auto hot = hidden(
+      "thermal_derating",
+      {{"fraction", 0.1, "1"}, {"time_constant", 2.0, "s"}, {"_reference", 0.5 * current, "A"}});
   ServoPlant plant(m, {hot}, e, 1e-4);
   plant.start_with(0.0, 0.0);
   plant.advance_to(3.0);
-  const double heat = 1.0 - std::exp(-1.5);
+  const double heat = 4.0 * (1.0 - std::exp(-1.5));  // twice the current it is measured by
   CHECK(plant.moment().heat == Approx(heat).epsilon(1e-6));
-  CHECK(plant.moment().delivered_Nm == Approx(0.5 * (1.0 - 0.2 * heat)).epsilon(1e-6));
+  CHECK(plant.moment().delivered_Nm == Approx(0.5 * (1.0 - 0.1 * heat)).epsilon(1e-6));
 }
 
 TEST_CASE("a bent encoder is read by recorder and drive alike") {
