@@ -65,7 +65,7 @@ std::vector<DealtCase> deal_rig(const std::string& rig, int count, RandomStream 
         }
       }
       if (request.kind == "not_decidable") request = alike_request(rig, alike++);
-      request.stiff = random.chance(0.4);
+      request.stiff = random.chance(request.kind == "one" ? 0.6 : 0.4);
       cases.push_back({rig, request});
     }
   }

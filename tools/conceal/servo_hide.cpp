@@ -63,7 +63,8 @@ bool hide_in_servo(const CaseRequest& request, const ServoPlan& plan, const Serv
   std::vector<double> shares;
   RandomStream sizes = random.branch(0);
   for (std::size_t i = 0; i < request.effects.size(); ++i) {
-    shares.push_back(sizes.log_uniform(0.05, 0.4));
+    // A stiff loop is there to hide things in.
+    shares.push_back(request.stiff ? sizes.log_uniform(0.03, 0.2) : sizes.log_uniform(0.05, 0.4));
   }
   for (int growth = 0; growth < 5; ++growth) {
     hidden = {};
