@@ -65,7 +65,7 @@ std::vector<DealtCase> deal_rig(const std::string& rig, int count, RandomStream 
         }
       }
       if (request.kind == "not_decidable") request = alike_request(rig, alike++);
-      request.stiff = random.chance(0.4);
+      request.stiff = random.chance(request.kind == "one" ? 0.6 : 0.4);
       cases.push_back({rig, request});
     }
   }
@@ -73,6 +73,22 @@ std::vector<DealtCase> deal_rig(const std::string& rig, int count, RandomStream 
 }
 
 }  // namespace
+
+CaseRequest another(const DealtCase& dealt, RandomStream random) {
+  CaseRequest request = dealt.request;
+  const bool servo = dealt.rig == "servo_pendulum";
+  if (request.kind == "not_decidable") {
+    request = alike_request(dealt.rig, random.below(16));
+    request.stiff = dealt.request.stiff;
+    return request;
+  }
+  std::vector<std::string> names = servo ? listed_servo_effects() : listed_sand_effects();
+  if (request.kind == "unknown") names = servo ? unlisted_servo_effects() : unlisted_sand_effects();
+  random.shuffle(names);
+  names.resize(request.effects.size());
+  request.effects = names;
+  return request;
+}
 
 std::vector<int> apportion(int count, const std::vector<double>& shares) {
   std::vector<int> counts;

@@ -20,6 +20,9 @@ struct DealtCase {
 /// "all": four fifths servo_pendulum.
 std::vector<DealtCase> deal(int count, const std::string& rig, RandomStream random);
 
+/// Another request of the same kind, for where no machine could hide what was asked for.
+CaseRequest another(const DealtCase& dealt, RandomStream random);
+
 /// How many of `count` fall to each of `shares`, which add up to one: largest remainders.
 std::vector<int> apportion(int count, const std::vector<double>& shares);
 

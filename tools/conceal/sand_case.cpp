@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Forces = std::vector<std::vector<double>>;
 
-constexpr int kMostDraws = 200;
+constexpr int kMostDraws = 60;
 constexpr double kLeastStrength = 15.0, kLeastStrengthUnknown = 25.0, kLargestShare = 0.5;
 
 Forces run(const SandPlan& plan, const std::vector<HiddenEffect>& hidden) {
@@ -264,7 +264,9 @@ CaseData make_sand_case(const std::string& name, const CaseRequest& request,
     }
     return data;
   }
-  throw CannotFinish(name + ": no presses were found that hide what was drawn");
+  std::string effects;
+  for (const std::string& effect : request.effects) effects += " " + effect;
+  throw CannotFinish(name + ": no presses were found that hide" + effects);
 }
 
 }  // namespace hoof::tools::conceal

@@ -53,9 +53,9 @@ void draw_presses(const CaseRequest& request, SandPlan& plan, RandomStream& rand
   const int sizes = alike ? 2 : random.integer(3, 5);
   std::vector<double> widths;
   for (int i = 0; i < sizes; ++i) widths.push_back(0.04 + 0.02 * i + random.uniform(0.0, 0.01));
-  // Rate and rest look like unloading where both are there; unloading needs to be seen.
-  const bool cycles = !asks_for(request, "rate_dependence") && !alike &&
-                      (asks_for(request, "unload_hysteresis") || random.chance(0.3));
+  // Rate is told by the speed downwards, so that presses for it go one way unless asked otherwise.
+  const bool cycles = asks_for(request, "unload_hysteresis") ||
+                      (!asks_for(request, "rate_dependence") && !alike && random.chance(0.3));
   const int count = alike ? 5 : random.integer(6, 9);
   const double first_speed = random.uniform(0.002, 0.004), growth = random.uniform(0.001, 0.002);
   const int offset = random.integer(0, sizes - 1);

@@ -18,7 +18,7 @@
 namespace hoof::tools::conceal {
 namespace {
 
-constexpr int kMostDraws = 60;
+constexpr int kMostDraws = 30;
 constexpr double kSameForAnyTest = 5.0;
 
 void keep_doubts(ServoPlan& plan, std::initializer_list<const char*> exact) {

@@ -7,7 +7,7 @@
 namespace hoof::tools::conceal {
 namespace {
 
-constexpr int kMostDraws = 100;
+constexpr int kMostDraws = 25;
 
 }  // namespace
 
@@ -38,7 +38,9 @@ CaseData make_servo_case(const std::string& name, const CaseRequest& request,
     }
     return finish_servo_case(name, request, plan, hidden, stream);
   }
-  throw CannotFinish(name + ": no machine was found that hides what was drawn");
+  std::string effects;
+  for (const std::string& effect : request.effects) effects += " " + effect;
+  throw CannotFinish(name + ": no machine was found that hides" + effects);
 }
 
 }  // namespace hoof::tools::conceal

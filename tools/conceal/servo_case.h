@@ -9,7 +9,7 @@
 namespace hoof::tools::conceal {
 
 /// Draws machines until one hides what is asked for so that it can be seen at all; CannotFinish
-/// where a hundred do not.
+/// where many do not.
 CaseData make_servo_case(const std::string& name, const CaseRequest& request,
                          const RandomStream& random);
 

@@ -39,11 +39,13 @@ void normalise_heat(HiddenInServo& hidden) {
 }
 
 SeenChange change_without(const ServoPlan& plan, const HiddenInServo& hidden,
-                          const Eigen::VectorXd& with, std::size_t index) {
+                          const Eigen::VectorXd& with, std::size_t index, double least) {
   std::vector<HiddenEffect> others = hidden.effects;
   others.erase(others.begin() + std::ptrdiff_t(index));
-  const Eigen::VectorXd without = whitened(plan, run_plan(plan, others));
-  return seen_change(plan, with - without, sensitivities(plan, hidden.effects, others, with));
+  const Eigen::VectorXd change = with - whitened(plan, run_plan(plan, others));
+  // What does not stand out as it is need not be looked at further.
+  if (change.norm() < least) return {{}, change.norm()};
+  return seen_change(plan, change, sensitivities(plan, hidden.effects, others, with));
 }
 
 }  // namespace
@@ -61,7 +63,8 @@ bool hide_in_servo(const CaseRequest& request, const ServoPlan& plan, const Serv
   std::vector<double> shares;
   RandomStream sizes = random.branch(0);
   for (std::size_t i = 0; i < request.effects.size(); ++i) {
-    shares.push_back(sizes.log_uniform(0.05, 0.4));
+    // A stiff loop is there to hide things in.
+    shares.push_back(request.stiff ? sizes.log_uniform(0.03, 0.2) : sizes.log_uniform(0.05, 0.4));
   }
   for (int growth = 0; growth < 5; ++growth) {
     hidden = {};
@@ -78,13 +81,15 @@ bool hide_in_servo(const CaseRequest& request, const ServoPlan& plan, const Serv
     const Eigen::VectorXd with = whitened(plan, hidden.signals);
     bool seen = true;
     for (std::size_t i = 0; i < hidden.effects.size(); ++i) {
-      hidden.changes.push_back(change_without(plan, hidden, with, i));
+      hidden.changes.push_back(change_without(plan, hidden, with, i, least));
       if (hidden.changes.back().strength >= least) continue;
       seen = false;
       if (shares[i] >= kLargestShare) return false;
       shares[i] = std::min(kLargestShare, 1.6 * shares[i]);
     }
     if (!seen) continue;
+    hidden.together = hidden.changes[0];
+    if (hidden.effects.size() == 1) return true;
     const Eigen::VectorXd without = whitened(plan, run_plan(plan, {}));
     hidden.together =
         seen_change(plan, with - without, sensitivities(plan, hidden.effects, {}, with));

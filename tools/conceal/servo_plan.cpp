@@ -107,8 +107,9 @@ void draw_exercises(const PlanWish& wish, ServoPlan& plan, RandomStream& random)
   std::vector<int> kinds = {2, 3, 4, 5, 6};
   random.shuffle(kinds);
   kinds.insert(kinds.begin(), {0, 1});  // always one slow and one quick
-  const double encoder_step_rad =
-      random.chance(0.3) ? 2.0 * std::numbers::pi / random.pick({4096.0, 16384.0}) : 0.0;
+  const double encoder_step_rad = random.chance(wish.stiff ? 0.1 : 0.3)
+                                      ? 2.0 * std::numbers::pi / random.pick({4096.0, 16384.0})
+                                      : 0.0;
   for (int i = 0; i < count; ++i) {
     ServoExercise e;
     const double duration_s = random.uniform(6.0, 9.0);
@@ -142,7 +143,7 @@ void draw_supply(const PlanWish& wish, ServoPlan& plan, RandomStream& random) {
 void draw_channels(const PlanWish& wish, ServoPlan& plan, RandomStream& random) {
   const double step = plan.exercises.front().encoder_step_rad;
   const double position_noise =
-      step > 0.0 ? step / std::sqrt(12.0) : random.log_uniform(wish.stiff ? 5e-4 : 2e-4, 2e-3);
+      step > 0.0 ? step / std::sqrt(12.0) : random.log_uniform(wish.stiff ? 8e-4 : 2e-4, 2e-3);
   plan.predicted.push_back({"position", &ServoSignals::position, position_noise});
   if (random.chance(0.5)) {
     plan.predicted.push_back(
