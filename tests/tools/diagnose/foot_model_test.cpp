@@ -80,7 +80,7 @@ std::map<std::string, double> left(const FootModel& model, const std::vector<Act
   return rmse;
 }
 
-/// A rival at its best: over its starts, each at several sizes, then by least squares.
+/// A rival at its best: over its starts, each at several sizes, then by trial on each parameter.
 ActiveEffect at_its_best(const FootModel& model, const Fitter& fitter, const std::string& name) {
   const Effects effects = {effect_of(model, name)};
   const Layout layout(model, effects);
@@ -98,8 +98,20 @@ ActiveEffect at_its_best(const FootModel& model, const Fitter& fitter, const std
       if (start.size_coordinate < 0) break;
     }
   }
-  const Fit fit = fitter.fit(effects, best, 6, weights);
-  return layout.active(fit.x).front();
+  // Without slopes: the firmware's codes and events make the squares ragged.
+  for (double step = 0.2; step > 0.004;) {
+    bool better = false;
+    for (Eigen::Index i = layout.setup_count(); i < best.size(); ++i) {
+      for (const double side : {-1.0, 1.0}) {
+        Eigen::VectorXd x = best;
+        x[i] += side * step;
+        const double objective = fitter.objective(effects, x, weights);
+        if (objective < least) least = objective, best = x, better = true;
+      }
+    }
+    if (!better) step *= 0.4;
+  }
+  return layout.active(best).front();
 }
 
 }  // namespace
