@@ -17,9 +17,9 @@ struct ParameterEstimate {
 
 struct EffectFinding {
   std::string name;
-  std::string joint;  // of the foot's effects at a joint: toe, hip, knee; else empty
   double probability = 0;  // marginal: alone or in a pair
   std::vector<ParameterEstimate> parameters;
+  std::string joint = {};  // of the foot's effects at a joint: toe, hip, knee; else empty
 };
 
 struct Interval {

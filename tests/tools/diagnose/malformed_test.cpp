@@ -281,5 +281,7 @@ TEST_CASE("Malformed data sets: files and folders that are not there") {
         "setup");
   folder.write("set.toml", own + "setup = { kt = 1 }\n");
   CHECK(complaint(folder) ==
-        "set.toml:7:9: recording.setup: rig = \"foot_hil\" has no setup values");
+        "set.toml:7:11: recording.setup.kt = 1: unknown key; allowed: load, soil_stiffness, "
+        "soil_yield, soil_friction, toe_coulomb, toe_viscous, hip_coulomb, hip_viscous, "
+        "knee_coulomb, knee_viscous");
 }
