@@ -99,6 +99,7 @@ class Pendulum {
       delay_s_ += effect->goal_delay_s();
     }
     delay_s_ += s_.input_late_s;
+    effects_act_ = !stages_.motor.empty() || !stages_.friction.empty() || !stages_.link.empty();
     gravity_Nm_ = s_.gravity_torque_Nm();
     link_inertia_ = s_.link_inertia_kg_m2();
     inertia_ = std::max(link_inertia_ + s_.armature_kg_m2, 1e-9);
@@ -123,6 +124,7 @@ class Pendulum {
   void step_geared();
   double link_torque_Nm(double q, double w) const;
   double slide(double w0, double push_Nm, double inertia, double h);
+  double effect_torque_Nm() const;
   void sample(std::size_t i, double share);
   void correct(std::size_t i);
 
@@ -138,6 +140,7 @@ class Pendulum {
   double h_ = 0;
   int steps_per_law_ = 1;
   bool geared_ = false;
+  bool effects_act_ = false;  // on torques
   double gear_stiffness_ = 0, gear_damping_ = 0;
 
   double q_ = 0, w_ = 0, a_ = 0, v_ = 0;  // now
@@ -254,6 +257,14 @@ double Pendulum::friction_Nm(double w, double direction) const {
   return std::max(friction, 0.0);
 }
 
+/// What effects do to the torques of this step, for those who ask where they act.
+double Pendulum::effect_torque_Nm() const {
+  double sum = std::abs(motor_Nm_ - (enabled_ ? command_Nm_ : 0));
+  if (!stages_.friction.empty()) sum += std::abs(friction_Nm(w0_, w0_) - s_.coulomb_Nm);
+  if (!stages_.link.empty()) sum += std::abs(external_Nm_ + gravity_Nm_ * std::sin(q0_));
+  return sum;
+}
+
 double Pendulum::link_torque_Nm(double q, double w) const {
   double torque = -gravity_Nm_ * std::sin(q);
   for (JointEffect* effect : stages_.link) {
@@ -340,6 +351,7 @@ void Pendulum::sample(std::size_t i, double share) {
   out_.position_rad[i] = reading_rad(q);
   out_.velocity_rad_s[i] = slope(q) * w;
   out_.torque_Nm[i] = command_Nm_;
+  out_.effect_Nm[i] = effects_act_ ? effect_torque_Nm() : 0;
   out_.current_A[i] = s_.kt_Nm_A > 0 ? command_Nm_ / s_.kt_Nm_A : 0;
 }
 
@@ -355,8 +367,8 @@ void Pendulum::correct(std::size_t i) {
 
 void Pendulum::run() {
   const std::size_t n = in_.time_s.size();
-  for (std::vector<double>* channel :
-       {&out_.position_rad, &out_.velocity_rad_s, &out_.torque_Nm, &out_.current_A}) {
+  for (std::vector<double>* channel : {&out_.position_rad, &out_.velocity_rad_s, &out_.torque_Nm,
+                                       &out_.current_A, &out_.effect_Nm}) {
     channel->resize(n);
   }
   const double start = in_.time_s.front();

@@ -80,6 +80,8 @@ struct PendulumStart {
 
 struct PendulumTrace {
   std::vector<double> position_rad, velocity_rad_s, torque_Nm, current_A;  // one value per sample
+  /// Size of the torques of effects at motor, friction and link, in sum.
+  std::vector<double> effect_Nm;
 };
 
 /// Predicted channels at the times of the samples. `torque_Nm` is what the law commands

@@ -57,7 +57,8 @@ std::vector<AnsweredHypothesis> read_hypotheses(const fs::path& file) {
   std::istringstream lines(read_file(file));
   std::string line;
   std::getline(lines, line);
-  if (line != "name,parameters_count,log_likelihood,samples_count") {
+  // Further columns are the tool's own affair.
+  if (!line.starts_with("name,parameters_count,log_likelihood,samples_count")) {
     throw UserError(file.string() +
                     ":1: columns name,parameters_count,log_likelihood,"
                     "samples_count are expected, not " +

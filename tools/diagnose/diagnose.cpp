@@ -21,6 +21,10 @@ constexpr double kNamed = 0.5;
 /// Members of a set that cannot be told apart.
 constexpr double kInSet = 0.12;
 
+/// Half of a 95 % interval in standard deviations of the fit. Twice the normal's: a model's own
+/// errors, which look like no noise, are as large again (README, concealed plants).
+constexpr double kWide = 4.0;
+
 class Diagnosis {
  public:
   Diagnosis(const RigModel& model, const DiagnoseOptions& options)
@@ -57,6 +61,11 @@ class Diagnosis {
   }
 
   void decide();
+  /// Square of the marginal: a member that is in every likely hypothesis gets nearly all.
+  double sure(const sim::EffectInfo* effect) const {
+    const double marginal = judgement_.marginals.at(std::string(effect->name));
+    return marginal * marginal;
+  }
   void name_effects();
   void say_where();
   void measure();
@@ -73,13 +82,19 @@ class Diagnosis {
 };
 
 void Diagnosis::decide() {
+  // What is written sums to one: a pair's probability is shared out by how sure each member is.
   auto& p = verdict_.probabilities;
-  double sum = judgement_.none + judgement_.unknown;
-  for (const auto& [name, marginal] : judgement_.marginals) sum += marginal;
-  // A pair counts for each member; what is written sums to one.
-  p["none"] = judgement_.none / sum;
-  p["unknown"] = judgement_.unknown / sum;
-  for (const auto& [name, marginal] : judgement_.marginals) p[name] = marginal / sum;
+  p["none"] = judgement_.none;
+  p["unknown"] = judgement_.unknown;
+  for (const auto& [name, marginal] : judgement_.marginals) p[name] = 0;
+  for (const Standing& s : judgement_.standings) {
+    if (s.fit->effects.empty() || !s.listed) continue;
+    double sum = 0;
+    for (const auto* e : s.fit->effects) sum += sure(e);
+    for (const auto* e : s.fit->effects) {
+      p[std::string(e->name)] += s.probability * (sum > 0 ? sure(e) / sum : 0);
+    }
+  }
 
   winner_ = &none();
   const double missing = 1 - judgement_.none - judgement_.unknown;
@@ -133,7 +148,7 @@ EffectFinding Diagnosis::finding(const sim::EffectInfo* effect) const {
     for (std::size_t k = 0; k < effect->parameters.size(); ++k, ++i) {
       const int c = layout.setup_count() + i;
       const double x = s.fit->x[c];
-      const double wide = 1.96 * std::sqrt(std::max(s.fit->covariance(c, c), 0.0));
+      const double wide = kWide * std::sqrt(std::max(s.fit->covariance(c, c), 0.0));
       ParameterEstimate estimate{std::string(effect->parameters[k].name), layout.effect_value(i, x),
                                  std::string(effect->parameters[k].unit),
                                  layout.effect_value(i, x - wide),

@@ -66,14 +66,18 @@ Gains gains(const Fitter& fitter, const Fit& fit, const Fit& none) {
   return sum;
 }
 
-/// Evidence as it enters a probability: what is better than nominal by more than the tolerance is
-/// counted down, what is worse counts in full. An effect that changes nothing is no finding.
-double tempered(const Standing& s, double likelihood_gain, double tolerance, double most) {
-  const double gain = s.evidence + s.holdout_gain;
+/// Evidence as it enters a probability: what fits better than the nominal model by more than the
+/// tolerance is counted down, what fits worse and what parameters cost count in full. An effect
+/// that changes nothing is no finding.
+double tempered(const Standing& s, const Fit& none, double tolerance, double most) {
   if (s.fit->effects.empty()) return 0;
+  const double closer = none.objective - s.fit->objective;
+  const double cost = s.evidence - closer;
+  const double gain = closer + s.holdout_gain;
   const double counted =
       gain > 0 ? std::max(gain - tolerance, 0.0) / (kTemperature + kRelative * most) : gain;
-  return likelihood_gain < kLeastGain ? std::min(counted, 0.0) - kNoFinding : counted;
+  const bool nothing = s.fit->log_likelihood - none.log_likelihood < kLeastGain;
+  return std::min(cost, 0.0) + (nothing ? std::min(counted, 0.0) - kNoFinding : counted);
 }
 
 /// By channel the share of squares above the noise that is gone, the mean over the groups weighted
@@ -84,7 +88,9 @@ double removed(const Fitter& fitter, const Fit& fit, const Fit& none) {
     const Group& group = fitter.groups()[g];
     if (group.holdout || group.samples < 1) continue;
     const double floor = group.noise * group.noise * group.samples;
-    const double before = none.squares[g] - floor, after = std::max(fit.squares[g] - floor, 0.0);
+    // What is left and looks independent from sample to sample is noise, wherever it is from.
+    const double before = none.squares[g] - floor;
+    const double after = std::max(fit.squares[g] - floor, 0.0) * (1 - group.effective);
     if (before <= 0.05 * floor) continue;
     const double weight = std::log1p(before / floor) * group.samples;
     sum += weight * std::clamp(1 - after / before, -1.0, 1.0);
@@ -134,8 +140,7 @@ Judgement judge(const Fitter& fitter, const SearchResult& result) {
     const Gains g = gains(fitter, fit, none);
     s.explained = g.possible > 0 ? g.made / g.possible : 1;
     s.removed = removed(fitter, fit, none);
-    score.push_back(tempered(s, fit.log_likelihood - none.log_likelihood, tolerance, most) +
-                    log_prior(fit, singles, pairs, stand_ins));
+    score.push_back(tempered(s, none, tolerance, most) + log_prior(fit, singles, pairs, stand_ins));
     top = std::max(top, score.back());
     j.standings.push_back(s);
   }

@@ -22,8 +22,8 @@ constexpr double kLongestStep_s = 2.5e-3;
 constexpr double kStartSpan_s = 0.02;  // of the contract
 
 /// Doubt of when inputs act: of a control period, and of the time between samples.
-constexpr double kPeriodShare = 0.3;
-constexpr double kSampleShare = 0.1;
+constexpr double kPeriodShare = 0.2;
+constexpr double kSampleShare = 0.05;
 
 struct PendulumKey {
   const char* name;
@@ -401,6 +401,17 @@ std::vector<RigModel::Counted> PendulumModel::counted(const sim::EffectInfo& eff
       {1, std::max(burst, 1.0), std::max(burst * std::exp(-wide), 1.0), burst * std::exp(wide)}};
 }
 
+std::vector<double> PendulumModel::strength(int index, std::span<const double> setup,
+                                            std::span<const ActiveEffect> effects) const {
+  const Run& run = runs_[index];
+  sim::PendulumTrace trace;
+  simulate(run, setup, effects, run.correction, trace);
+  for (const double v : trace.effect_Nm) {
+    if (v > 0) return trace.effect_Nm;
+  }
+  return {};
+}
+
 double PendulumModel::unit_of(const sim::EffectParameter& parameter) const {
   if (!parameter.unit.starts_with("Nm")) return 1;
   const bool peak = parameter.name == "ceiling";
@@ -408,9 +419,10 @@ double PendulumModel::unit_of(const sim::EffectParameter& parameter) const {
   return scale > 0 ? scale : 1;
 }
 
-Prediction PendulumModel::predict(int index, std::span<const double> setup,
-                                  std::span<const ActiveEffect> active, Rollout rollout) const {
-  const Run& run = runs_[index];
+void PendulumModel::simulate(const Run& run, std::span<const double> setup,
+                             std::span<const ActiveEffect> active,
+                             const sim::PendulumCorrection& correction,
+                             sim::PendulumTrace& trace) const {
   std::vector<std::unique_ptr<JointEffect>> owned;
   std::vector<JointEffect*> effects;
   sim::PendulumInputs inputs = run.inputs;
@@ -423,11 +435,17 @@ Prediction PendulumModel::predict(int index, std::span<const double> setup,
     owned.push_back(effect.info->make_joint(effect.values));
     effects.push_back(owned.back().get());
   }
+  simulate_pendulum(settings(run, setup), inputs, effects, run.start, correction,
+                    run.longest_step_s, trace);
+}
+
+Prediction PendulumModel::predict(int index, std::span<const double> setup,
+                                  std::span<const ActiveEffect> active, Rollout rollout) const {
+  const Run& run = runs_[index];
   const auto correction =
       rollout == Rollout::kCorrected ? run.correction : sim::PendulumCorrection{};
   sim::PendulumTrace trace;
-  simulate_pendulum(settings(run, setup), inputs, effects, run.start, correction,
-                    run.longest_step_s, trace);
+  simulate(run, setup, active, correction, trace);
   Prediction prediction;
   for (const std::string& name : run.channels) {
     prediction.push_back(name == "position"   ? std::move(trace.position_rad)

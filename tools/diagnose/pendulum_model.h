@@ -30,6 +30,8 @@ class PendulumModel final : public RigModel {
   std::vector<Counted> counted(const sim::EffectInfo& effect) const override;
   Prediction predict(int recording, std::span<const double> setup,
                      std::span<const ActiveEffect> effects, Rollout rollout) const override;
+  std::vector<double> strength(int recording, std::span<const double> setup,
+                               std::span<const ActiveEffect> effects) const override;
   std::vector<Condition> conditions(int recording) const override;
 
  private:
@@ -57,6 +59,8 @@ class PendulumModel final : public RigModel {
   void estimate_start(Run& run) const;
   void choose_correction(Run& run) const;
   void look_for_losses(Run& run) const;
+  void simulate(const Run& run, std::span<const double> setup, std::span<const ActiveEffect> active,
+                const sim::PendulumCorrection& correction, sim::PendulumTrace& trace) const;
   void measure_effort();
 
   std::vector<DataSet> data_sets_;

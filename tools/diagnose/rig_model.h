@@ -84,6 +84,13 @@ class RigModel {
   /// A prediction takes no integration in time: a search can afford thousands more of them.
   virtual bool quick() const { return false; }
 
+  /// How strongly effects act at each sample, in any unit; empty where only the change of a channel
+  /// tells.
+  virtual std::vector<double> strength(int /*recording*/, std::span<const double> /*setup*/,
+                                       std::span<const ActiveEffect> /*effects*/) const {
+    return {};
+  }
+
   /// Conditions in rig channels that tell where an effect may be at work, e.g. "velocity < 0", and
   /// for each sample whether it holds; for the verdict's `where`.
   struct Condition {

@@ -11,8 +11,12 @@ namespace {
 constexpr double kSmooth_s = 0.1;
 /// Channels and recordings that show less than this share of the one that shows most are not named.
 constexpr double kNamedShare = 0.35;
+/// Fainter than this share of its top an effect is not said to be at work.
+constexpr double kFaint = 0.05;
 /// A region is named where the effect is this much denser in it than elsewhere.
 constexpr double kDenser = 2.0;
+
+}  // namespace
 
 std::vector<double> smoothed(const std::vector<double>& time_s, const std::vector<double>& values,
                              double span_s) {
@@ -27,6 +31,8 @@ std::vector<double> smoothed(const std::vector<double>& time_s, const std::vecto
   return out;
 }
 
+namespace {
+
 struct Change {
   const Group* group = nullptr;
   std::vector<double> squares;  // of the change, in units of the noise
@@ -35,19 +41,22 @@ struct Change {
 
 }  // namespace
 
-std::vector<std::pair<double, double>> strong_spans(const std::vector<double>& time_s,
-                                                    const std::vector<double>& strength,
-                                                    double smooth_s) {
-  std::vector<std::pair<double, double>> spans;
-  if (strength.size() < 3) return spans;
-  const std::vector<double> level = smoothed(time_s, strength, smooth_s);
-  std::vector<double> sorted = level;
+double strong_bound(const std::vector<const std::vector<double>*>& levels) {
+  std::vector<double> sorted;
+  for (const auto* level : levels) sorted.insert(sorted.end(), level->begin(), level->end());
+  if (sorted.empty()) return 0;
   std::sort(sorted.begin(), sorted.end());
-  const double bound = std::max(sorted[sorted.size() / 2], 0.2 * sorted[sorted.size() * 98 / 100]);
+  return std::max(sorted[sorted.size() / 2], kFaint * sorted[sorted.size() * 98 / 100]);
+}
+
+std::vector<std::pair<double, double>> spans_above(const std::vector<double>& time_s,
+                                                   const std::vector<double>& level, double bound,
+                                                   double close_s) {
+  std::vector<std::pair<double, double>> spans;
   for (std::size_t i = 0; i < level.size(); ++i) {
     if (!(level[i] > bound)) continue;
     const double end = time_s[std::min(i + 1, time_s.size() - 1)];
-    if (!spans.empty() && time_s[i] - spans.back().second <= 0.5 * smooth_s) {
+    if (!spans.empty() && time_s[i] - spans.back().second <= close_s) {
       spans.back().second = end;
     } else {
       spans.push_back({time_s[i], end});
@@ -95,26 +104,35 @@ Place place_of(const Fitter& fitter, const Fit& with, const Fit& without) {
     }
   }
   const double top = *std::max_element(by_recording.begin(), by_recording.end());
+  const Layout layout(model, with.effects);
+  std::vector<std::pair<int, std::vector<double>>> levels;
   std::map<std::string, std::array<double, 4>> regions;  // inside: sum, count; outside: sum, count
   for (const Change& change : changes) {
     const int i = change.group->recording;
     if (model.channels(i)[change.group->channel] != most) continue;
     const Recording& recording = model.recording(i);
     if (by_recording[i] >= kNamedShare * top) place.recordings.push_back(recording.name);
-    std::vector<double> strength = change.squares;
-    for (double& s : strength) s = std::sqrt(s);
-    if (by_recording[i] >= kNamedShare * top) {
-      for (const auto& [start, end] : strong_spans(recording.time_s, strength, kSmooth_s)) {
-        place.intervals.push_back({recording.name, start, end});
-      }
+    levels.push_back({i, model.strength(i, layout.setup(with.x), layout.active(with.x))});
+    if (levels.back().second.empty()) {
+      for (const double square : change.squares) levels.back().second.push_back(std::sqrt(square));
     }
+    levels.back().second = smoothed(recording.time_s, levels.back().second, kSmooth_s);
     for (const RigModel::Condition& condition : model.conditions(i)) {
       auto& region = regions[condition.text];
-      for (std::size_t k = 0; k < strength.size(); ++k) {
+      for (std::size_t k = 0; k < change.squares.size(); ++k) {
         const int at = condition.holds[k] ? 0 : 2;
         region[at] += change.squares[k];
         region[at + 1] += 1;
       }
+    }
+  }
+  std::vector<const std::vector<double>*> all;
+  for (const auto& [i, level] : levels) all.push_back(&level);
+  const double bound = strong_bound(all);
+  for (const auto& [i, level] : levels) {
+    const Recording& recording = model.recording(i);
+    for (const auto& [start, end] : spans_above(recording.time_s, level, bound, 0.5 * kSmooth_s)) {
+      place.intervals.push_back({recording.name, start, end});
     }
   }
   place.condition = "always";

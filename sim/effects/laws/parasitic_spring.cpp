@@ -29,7 +29,7 @@ EffectInfo parasitic_spring_effect() {
           .equation = "torque = -stiffness * (q - rest)",
           .source = "Hooke's law; cables on robot joints, e.g. Armstrong 1991, ch. 2",
           .parameters = {{"stiffness", "Nm/rad", 0, 1e3, 0.1, true, false, {0.1}},
-                         {"rest", "rad", -3.2, 3.2, 1, false, false, {-0.8, 0, 0.8}}},
+                         {"rest", "rad", -3.2, 3.2, 0.5, false, false, {-0.8, 0, 0.8}}},
           .experiment = "hold a row of angles over the whole range, with and without the cable",
           .make_joint = [](std::span<const double> values) {
             return std::make_unique<ParasiticSpring>(values);

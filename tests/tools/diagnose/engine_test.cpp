@@ -158,7 +158,8 @@ TEST_CASE("spans of strength take at most half of the time, about its peaks") {
     time_s.push_back(0.005 * i);
     strength.push_back(std::abs(time_s.back() - 3) < 0.5 ? 1 : 0.01);
   }
-  const auto spans = strong_spans(time_s, strength, 0.1);
+  const std::vector<double> level = smoothed(time_s, strength, 0.1);
+  const auto spans = spans_above(time_s, level, strong_bound({&level}), 0.05);
   REQUIRE(spans.size() == 1);
   CHECK(spans[0].first == Approx(2.5).margin(0.06));
   CHECK(spans[0].second == Approx(3.5).margin(0.06));
