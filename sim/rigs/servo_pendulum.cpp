@@ -98,6 +98,7 @@ class Pendulum {
       effect->reset(start.current_rms_A, start.torque_rms_Nm);
       delay_s_ += effect->goal_delay_s();
     }
+    delay_s_ += s_.input_late_s;
     gravity_Nm_ = s_.gravity_torque_Nm();
     link_inertia_ = s_.link_inertia_kg_m2();
     inertia_ = std::max(link_inertia_ + s_.armature_kg_m2, 1e-9);
@@ -210,7 +211,7 @@ void Pendulum::read_goals(double t_s) {
 void Pendulum::evaluate_law(double t_s) {
   enabled_ = !enable_.present() || enable_.held_at(t_s) > 0.5;
   if (s_.law == PendulumLaw::kTorque) {
-    command_Nm_ = torque_.at(t_s);
+    command_Nm_ = torque_.at(std::max(t_s - s_.input_late_s, in_.time_s.front()));
     return;
   }
   read_goals(t_s);

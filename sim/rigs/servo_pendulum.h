@@ -29,6 +29,8 @@ struct PendulumSettings {
   double gravity_m_s2 = 9.81;
   double coulomb_Nm = 0;
   double viscous_Nm_s_rad = 0;
+  /// Inputs act this much after the time that the recording gives them; may be negative.
+  double input_late_s = 0;
   double control_period_s = 0;  // 0: the law is evaluated at each step
 
   double kp_duty = 0;

@@ -35,8 +35,8 @@ bool parse_number(std::string_view text, double& value) {
 
 class CsvReader {
  public:
-  explicit CsvReader(const std::filesystem::path& file) : text_(read_file(file)) {
-    table_.file = file.string();
+  CsvReader(std::string text, const std::string& name) : text_(std::move(text)) {
+    table_.file = name;
     rest_ = text_;
     if (rest_.starts_with(kByteOrderMark)) rest_.remove_prefix(kByteOrderMark.size());
   }
@@ -182,7 +182,11 @@ int CsvTable::find(const std::string& name) const {
 }
 
 CsvTable read_csv(const std::filesystem::path& file, const std::set<std::string>& wanted) {
-  return CsvReader(file).read(wanted);
+  return parse_csv(read_file(file), file.string(), wanted);
+}
+
+CsvTable parse_csv(std::string text, const std::string& name, const std::set<std::string>& wanted) {
+  return CsvReader(std::move(text), name).read(wanted);
 }
 
 }  // namespace hoof::tools

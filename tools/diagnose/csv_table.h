@@ -27,4 +27,7 @@ struct CsvTable {
 /// @throws UserError "runs/a.csv:17: ..." for everything else
 CsvTable read_csv(const std::filesystem::path& file, const std::set<std::string>& wanted);
 
+/// The same of text; `name` stands for the file in messages.
+CsvTable parse_csv(std::string text, const std::string& name, const std::set<std::string>& wanted);
+
 }  // namespace hoof::tools

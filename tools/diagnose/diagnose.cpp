@@ -30,6 +30,11 @@ class Diagnosis {
     SearchOptions search_options = model_.costly() ? frugal_search() : SearchOptions();
     search_options.threads = options_.threads;
     search_options.progress = options_.progress;
+    if (model_.quick()) {
+      // All starts are followed, and long valleys (k_phi against n) to their end.
+      search_options.iterations = 60;
+      search_options.fits_of_single = 8;
+    }
     result_ = search(fitter_, search_options);
     judgement_ = judge(fitter_, result_);
     decide();
@@ -246,6 +251,7 @@ Verdict diagnose(const std::vector<DataSet>& data_sets, const DiagnoseOptions& o
       if (data_set.rig == RigKind::kFootHil) continue;  // by our own recorder
       for (QualityNote& note : check_quality(data_set)) verdict.quality.push_back(std::move(note));
     }
+    for (QualityNote& note : model->notes()) verdict.quality.push_back(std::move(note));
     return verdict;
   } catch (const SearchStopped&) {
     return {};

@@ -7,12 +7,14 @@
 
 #include "sim/config/settings.h"
 #include "tools/diagnose/toml_view.h"
+#include "tools/report/display_unit.h"
 #include "tools/run/csv_writer.h"
 
 namespace hoof::tools {
 namespace {
 
 constexpr int kFormat = 1;
+constexpr int kDigits = 4;  // of what stands in comments
 
 using Words = std::vector<std::string>;
 
@@ -64,7 +66,8 @@ std::string line(const std::string& key, double value, const std::string& commen
 
 std::string comment_of(const ParameterEstimate& p) {
   std::string text = p.unit == "1" ? "" : p.unit + ", ";
-  return text + "95 %: " + format_number(p.low95) + " to " + format_number(p.high95);
+  return text + "95 %: " + format_significant(p.low95, kDigits) + " to " +
+         format_significant(p.high95, kDigits);
 }
 
 }  // namespace

@@ -64,8 +64,9 @@ Fitter::Fitter(const RigModel& model) : model_(&model) {
       for (const double v : values) group.samples += std::isfinite(v) ? 1 : 0;
       const double seen = estimate_noise(recording.time_s, values);
       const double stated = model.stated_noise(i, name);
-      group.noise =
-          std::max({stated, seen > 0 && stated <= 0 ? seen : 0.0, 1e-4 * rms(values), 1e-12});
+      // A drive hands the noise of its sensor on to its torque: what is seen may be more than what
+      // is stated of the sensor alone.
+      group.noise = std::max({stated, seen, 1e-4 * rms(values), 1e-12});
       group.sigma = group.noise;
       groups_.push_back(group);
     }

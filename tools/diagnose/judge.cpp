@@ -10,25 +10,40 @@ namespace {
 constexpr double kNone = 0.30, kSingle = 0.38, kPair = 0.17, kUnknown = 0.15;
 /// Evidence is counted down by this: samples that look independent share one model's errors, and
 /// a fitted integrator is not the plant. From the calibration on concealed plants (README).
-constexpr double kTemperature = 3.0;
-/// Unknown physics is suspected where the best of the list explains less than this share.
-constexpr double kExplainedByKnown = 0.85;
-constexpr double kExplainedSpread = 0.05;
+constexpr double kTemperature = 2.0;
+/// And the more so the more there is to explain: a model's own errors grow with the effect. Half a
+/// percent of the best's evidence is worth three in a logarithm of odds.
+constexpr double kRelative = 1.0 / 600;
+/// No model is the plant: this much log likelihood per independent sample proves nothing.
+constexpr double kTolerated = 0.006;
+constexpr double kLeastGain = 2, kNoFinding = 4;
+/// Unknown physics is as likely as what the list names where that takes away this share of the
+/// squares above the noise; a share less by kRemovedSpread makes it e times more likely.
+constexpr double kRemovedByKnown = 0.45;
+constexpr double kRemovedSpread = 0.06;
+
+/// A held-out channel of one recording decides no more than this, in log likelihood.
+constexpr double kMostOfOneGroup = 15;
 
 bool listed(const Fit& fit) {
   return std::all_of(fit.effects.begin(), fit.effects.end(),
                      [](const sim::EffectInfo* e) { return e->listed; });
 }
 
+/// Held-out recordings, each channel by the logarithm of what is left above the noise as the best
+/// model leaves it: a rollout that went another way says that much, and no more.
 double holdout_gain(const Fitter& fitter, const Fit& fit, const Fit& none) {
-  double gain = 0;
+  double sum = 0;
   for (std::size_t g = 0; g < fitter.groups().size(); ++g) {
     const Group& group = fitter.groups()[g];
-    if (!group.holdout) continue;
-    gain -=
-        0.5 * group.effective * (fit.squares[g] - none.squares[g]) / (group.sigma * group.sigma);
+    if (!group.holdout || group.samples < 1) continue;
+    const double least = group.sigma * group.sigma;
+    const double before = std::max(none.squares[g] / group.samples, least);
+    const double after = std::max(fit.squares[g] / group.samples, least);
+    const double gain = 0.5 * group.effective * group.samples * std::log(before / after);
+    sum += std::clamp(gain, -kMostOfOneGroup, kMostOfOneGroup);
   }
-  return gain;
+  return sum;
 }
 
 /// Sum over groups of the logarithm of how much smaller the variance became; and how much it could.
@@ -51,10 +66,45 @@ Gains gains(const Fitter& fitter, const Fit& fit, const Fit& none) {
   return sum;
 }
 
+/// Evidence as it enters a probability: what is better than nominal by more than the tolerance is
+/// counted down, what is worse counts in full. An effect that changes nothing is no finding.
+double tempered(const Standing& s, double likelihood_gain, double tolerance, double most) {
+  const double gain = s.evidence + s.holdout_gain;
+  if (s.fit->effects.empty()) return 0;
+  const double counted =
+      gain > 0 ? std::max(gain - tolerance, 0.0) / (kTemperature + kRelative * most) : gain;
+  return likelihood_gain < kLeastGain ? std::min(counted, 0.0) - kNoFinding : counted;
+}
+
+/// By channel the share of squares above the noise that is gone, the mean over the groups weighted
+/// by how far the nominal model is off in them.
+double removed(const Fitter& fitter, const Fit& fit, const Fit& none) {
+  double sum = 0, weights = 0;
+  for (std::size_t g = 0; g < fitter.groups().size(); ++g) {
+    const Group& group = fitter.groups()[g];
+    if (group.holdout || group.samples < 1) continue;
+    const double floor = group.noise * group.noise * group.samples;
+    const double before = none.squares[g] - floor, after = std::max(fit.squares[g] - floor, 0.0);
+    if (before <= 0.05 * floor) continue;
+    const double weight = std::log1p(before / floor) * group.samples;
+    sum += weight * std::clamp(1 - after / before, -1.0, 1.0);
+    weights += weight;
+  }
+  return weights > 0 ? sum / weights : 1;
+}
+
 double log_prior(const Fit& fit, double singles, double pairs, double stand_ins) {
   if (fit.effects.empty()) return std::log(kNone);
   if (!listed(fit)) return std::log(kUnknown / std::max(stand_ins, 1.0));
   return fit.effects.size() == 1 ? std::log(kSingle / singles) : std::log(kPair / pairs);
+}
+
+/// Takes from each hypothesis of the list what it leaves unexplained, for the unknown.
+void suspect_unknown(std::vector<Standing>& standings) {
+  for (Standing& s : standings) {
+    if (!s.listed || s.fit->effects.empty()) continue;
+    s.insufficient = 1 / (1 + std::exp((s.removed - kRemovedByKnown) / kRemovedSpread));
+  }
 }
 
 }  // namespace
@@ -67,6 +117,14 @@ Judgement judge(const Fitter& fitter, const SearchResult& result) {
   }
   const double pairs = std::max(1.0, singles * (singles - 1) / 2);
   Judgement j;
+  double tolerance = 0;
+  for (const Group& group : fitter.groups()) {
+    if (!group.holdout) tolerance += kTolerated * group.effective * group.samples;
+  }
+  double most = 0;
+  for (const Fit& fit : result.fits) {
+    most = std::max(most, fit.log_evidence - none.log_evidence + holdout_gain(fitter, fit, none));
+  }
   double top = -1e300;
   std::vector<double> score;
   for (const Fit& fit : result.fits) {
@@ -75,7 +133,8 @@ Judgement judge(const Fitter& fitter, const SearchResult& result) {
         0};
     const Gains g = gains(fitter, fit, none);
     s.explained = g.possible > 0 ? g.made / g.possible : 1;
-    score.push_back((s.evidence + s.holdout_gain) / kTemperature +
+    s.removed = removed(fitter, fit, none);
+    score.push_back(tempered(s, fit.log_likelihood - none.log_likelihood, tolerance, most) +
                     log_prior(fit, singles, pairs, stand_ins));
     top = std::max(top, score.back());
     j.standings.push_back(s);
@@ -88,6 +147,7 @@ Judgement judge(const Fitter& fitter, const SearchResult& result) {
   std::stable_sort(
       j.standings.begin(), j.standings.end(),
       [](const Standing& a, const Standing& b) { return a.probability > b.probability; });
+  suspect_unknown(j.standings);
   const Gains all = gains(fitter, none, none);
   j.misfit = all.samples > 0 ? all.possible / all.samples : 0;
   for (const Standing& s : j.standings) {
@@ -99,12 +159,14 @@ Judgement judge(const Fitter& fitter, const SearchResult& result) {
   for (const sim::EffectInfo* effect : fitter.model().effects()) {
     if (effect->listed) j.marginals[std::string(effect->name)] = 0;
   }
-  for (const Standing& s : j.standings) {
+  for (Standing& s : j.standings) {
     if (s.fit->effects.empty()) {
       j.none += s.probability;
     } else if (!s.listed) {
       j.unknown += s.probability;
     } else {
+      j.unknown += s.insufficient * s.probability;
+      s.probability *= 1 - s.insufficient;
       for (const sim::EffectInfo* e : s.fit->effects) {
         j.marginals[std::string(e->name)] += s.probability;
       }

@@ -21,6 +21,10 @@ constexpr double kFreeStep_s = 2e-3;
 constexpr double kLongestStep_s = 2.5e-3;
 constexpr double kStartSpan_s = 0.02;  // of the contract
 
+/// Doubt of when inputs act: of a control period, and of the time between samples.
+constexpr double kPeriodShare = 0.3;
+constexpr double kSampleShare = 0.1;
+
 struct PendulumKey {
   const char* name;
   double PendulumSettings::*member;
@@ -171,6 +175,23 @@ void PendulumModel::add_doubts(Run& run) {
     }
     run.doubts[key.name] = index;
   }
+  add_timing(run);
+}
+
+/// Where within its period a drive takes a goal over, and whether a log holds the goal of then or
+/// of now, is not known: a clock that is a share of a period off is no physics.
+void PendulumModel::add_timing(Run& run) {
+  const auto& t = run.recording->time_s;
+  const double sample_s = (t.back() - t.front()) / static_cast<double>(t.size() - 1);
+  const bool torque = run.settings.law == PendulumLaw::kTorque;
+  const std::string name = torque ? "torque_timing" : "goal_timing";
+  const double sigma = kPeriodShare * run.settings.control_period_s + kSampleShare * sample_s;
+  int index = 0;
+  while (index < static_cast<int>(doubtful_.size()) && doubtful_[index].name != name) ++index;
+  if (index == static_cast<int>(doubtful_.size())) {
+    doubtful_.push_back({name, 0, sigma, -1});
+  }
+  run.timing = index;
 }
 
 PendulumSettings PendulumModel::settings(const Run& run, std::span<const double> setup) const {
@@ -179,6 +200,7 @@ PendulumSettings PendulumModel::settings(const Run& run, std::span<const double>
     const auto doubt = run.doubts.find(key.name);
     if (doubt != run.doubts.end()) settings.*key.member = setup[doubt->second];
   }
+  if (run.timing >= 0) settings.input_late_s = setup[run.timing];
   settings.resistance_ohm = std::max(settings.resistance_ohm, 1e-6);
   return settings;
 }

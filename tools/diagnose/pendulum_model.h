@@ -43,6 +43,7 @@ class PendulumModel final : public RigModel {
     double wander_rad = 0, wander_rad_s = 0;  // 1-sigma of the corrected state before a sample
     std::vector<std::string> channels;
     double longest_step_s = 0;
+    int timing = -1;  // in doubtful_
     GoalLosses losses;
     std::map<std::string, int> doubts;  // key of the setup to index in doubtful_
   };
@@ -50,6 +51,7 @@ class PendulumModel final : public RigModel {
   static double stated_noise(const DataSet& data_set, const std::string& channel);
   void add(const DataSet& data_set, const Recording& recording);
   void add_doubts(Run& run);
+  void add_timing(Run& run);
   void choose_effects();
   sim::PendulumSettings settings(const Run& run, std::span<const double> setup) const;
   void estimate_start(Run& run) const;

@@ -114,7 +114,7 @@ void PressModel::read_sand(Press& press, int& presses_before) {
 void PressModel::read_block(Press& press) {
   const std::vector<double>& heights = press.recording.channels.at("position");
   const std::vector<double>& forces = press.recording.channels.at("force");
-  press.compared = on_block(heights, forces);
+  press.compared = on_block(press.recording.time_s, heights, forces);
   double largest_N = 0;
   std::size_t lightest = forces.size();
   for (std::size_t i = 0; i < forces.size(); ++i) {

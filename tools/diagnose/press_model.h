@@ -32,9 +32,15 @@ class PressModel : public RigModel {
   const std::vector<const sim::EffectInfo*>& effects() const override { return effects_; }
   Prediction predict(int recording, std::span<const double> setup,
                      std::span<const ActiveEffect> effects, Rollout rollout) const override;
+  bool quick() const override { return true; }
   std::vector<Condition> conditions(int recording) const override;
+  std::vector<QualityNote> notes() const override;
 
   const std::vector<HiddenEffect>& hidden_effects() const { return hidden_; }
+
+  /// How far presses of the plate of that width are off the mean of the others at the same depth,
+  /// going down, rms. NaN where there are no two that reach the same depths.
+  double repeat_scatter_N(double width_m) const;
 
  private:
   /// A setup value as a prediction finds it: fixed, or the doubtful number of that index.

@@ -4,11 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/diagnose/noise.h"
+
 namespace hoof::tools {
 namespace {
 
 constexpr std::size_t kSideSamples = 3;
-constexpr double kSideOfSpeed_s = 0.1;
+constexpr double kMostSide_s = 0.1;   // of the line that tells the speed
+constexpr double kSpeedDoubt = 0.02;  // of the largest speed: what that line should not exceed
+constexpr double kNoises = 3;
 
 /// Missing values on the straight line between their neighbours; beyond the ends as the ends.
 std::vector<double> bridged(std::span<const double> time_s, std::span<const double> values) {
@@ -57,21 +61,49 @@ Fitted fit_polynomial(std::span<const double> time_s, std::span<const double> va
   return {values[at] + fit(0), fit(1) / scale_s};
 }
 
+/// Fewest samples on each side that tell the speed well enough: h samples of noise sigma, dt apart,
+/// leave a slope's deviation of sigma / (dt sqrt(h (h + 1) (2 h + 1) / 3)).
+std::size_t side_of_speed(std::span<const double> time_s, std::span<const double> height_m,
+                          double noise_m) {
+  const std::size_t count = time_s.size();
+  if (count < 3) return 1;
+  const double dt_s = (time_s[count - 1] - time_s[0]) / static_cast<double>(count - 1);
+  double fastest_m_s = 0;
+  for (std::size_t i = 2 * kSideSamples; i < count; ++i) {
+    const std::size_t before = i - 2 * kSideSamples;
+    fastest_m_s = std::max(fastest_m_s,
+                           std::abs(height_m[i] - height_m[before]) / (time_s[i] - time_s[before]));
+  }
+  std::size_t side = 1;
+  for (; static_cast<double>(side) * dt_s < kMostSide_s; ++side) {
+    const auto h = static_cast<double>(side);
+    const double doubt_m_s = noise_m / (dt_s * std::sqrt(h * (h + 1) * (2 * h + 1) / 3));
+    if (doubt_m_s <= kSpeedDoubt * fastest_m_s) break;
+  }
+  return side;
+}
+
 }  // namespace
 
 sim::PressPath press_path(std::span<const double> time_s, std::span<const double> height_m) {
   sim::PressPath path;
   const std::vector<double> heights = bridged(time_s, height_m);
   const std::size_t count = heights.size();
+  const double noise_m = estimate_noise(time_s, height_m);
+  const std::size_t side = side_of_speed(time_s, heights, noise_m);
+  const auto first = [](std::size_t i, std::size_t samples) { return i - std::min(i, samples); };
+  const auto last = [&](std::size_t i, std::size_t samples) {
+    return std::min(i + samples, count - 1);
+  };
   for (std::size_t i = 0; i < count; ++i) {
-    std::size_t first = i - std::min(i, kSideSamples);
-    std::size_t last = std::min(i + kSideSamples, count - 1);
-    const double height = fit_polynomial(time_s, heights, i, first, last, 2).value;
-    while (first > 0 && time_s[i] - time_s[first - 1] <= kSideOfSpeed_s) --first;
-    while (last + 1 < count && time_s[last + 1] - time_s[i] <= kSideOfSpeed_s) ++last;
+    const double smooth_m =
+        fit_polynomial(time_s, heights, i, first(i, kSideSamples), last(i, kSideSamples), 2).value;
+    // Beyond its noise a height is right, and the parabola cuts a corner of the path.
+    const bool within = std::abs(smooth_m - heights[i]) <= kNoises * noise_m;
     path.time_s.push_back(time_s[i] - time_s[0]);
-    path.height_m.push_back(height);
-    path.speed_m_s.push_back(-fit_polynomial(time_s, heights, i, first, last, 1).slope);
+    path.height_m.push_back(within ? smooth_m : heights[i]);
+    path.speed_m_s.push_back(
+        -fit_polynomial(time_s, heights, i, first(i, side), last(i, side), 1).slope);
   }
   path.press.assign(count, 0);
   return path;
@@ -98,7 +130,8 @@ int count_presses(sim::PressPath& path, double surface_height_m, int before) {
   return pressed ? press + 1 : press;
 }
 
-std::vector<bool> on_block(std::span<const double> height_m, std::span<const double> force_N) {
+std::vector<bool> on_block(std::span<const double> time_s, std::span<const double> height_m,
+                           std::span<const double> force_N) {
   double largest_N = 0;
   for (const double force : force_N) {
     if (force > largest_N) largest_N = force;
@@ -111,7 +144,8 @@ std::vector<bool> on_block(std::span<const double> height_m, std::span<const dou
     high_m = std::max(high_m, height_m[i]);
   }
   // Contact itself is a little higher, by noise and by what the rig travels first.
-  const double aloft_m = high_m + 0.5 * (high_m - low_m);
+  const double noise_m = estimate_noise(time_s, height_m);
+  const double aloft_m = high_m + 0.1 * (high_m - low_m) + 4 * noise_m;
   std::vector<bool> bears(force_N.size());
   for (std::size_t i = 0; i < force_N.size(); ++i) {
     const bool aloft = !(force_N[i] > kBearing * largest_N) && height_m[i] > aloft_m;

@@ -9,9 +9,11 @@
 
 namespace hoof::tools {
 
-/// Height and speed of the carriage from a measured height, by a least-squares parabola over the
-/// sample and three on each side (Savitzky, Golay: Anal. Chem. 36 (1964) 1627, here for any times)
-/// and a line over at least 0.1 s on each side. Missing samples are bridged. Speed is downward.
+/// Height and speed of the carriage from a measured height. Height: a least-squares parabola over
+/// the sample and three on each side (Savitzky, Golay: Anal. Chem. 36 (1964) 1627, here for any
+/// times), where it is within the noise of what was measured; elsewhere as measured. Speed,
+/// downward: a line over as few neighbours as the noise allows, at most 0.1 s on each side. Missing
+/// samples are bridged.
 /// @return with no presses counted
 sim::PressPath press_path(std::span<const double> time_s, std::span<const double> height_m);
 
@@ -20,6 +22,7 @@ sim::PressPath press_path(std::span<const double> time_s, std::span<const double
 int count_presses(sim::PressPath& path, double surface_height_m, int before);
 
 /// Samples of a press on a rigid block in which the plate bears on it.
-std::vector<bool> on_block(std::span<const double> height_m, std::span<const double> force_N);
+std::vector<bool> on_block(std::span<const double> time_s, std::span<const double> height_m,
+                           std::span<const double> force_N);
 
 }  // namespace hoof::tools

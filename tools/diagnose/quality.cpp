@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "tools/diagnose/noise.h"
 #include "tools/diagnose/quality_checks.h"
 #include "tools/diagnose/series.h"
 #include "tools/diagnose/verdict_text.h"
@@ -64,7 +65,7 @@ double QualityCase::noise(const std::string& channel) const {
   const auto stated = set.noise.find(channel);
   if (stated != set.noise.end()) return stated->second;
   const auto values = recording.channels.find(channel);
-  return values == recording.channels.end() ? 0 : noise_of(values->second);
+  return values == recording.channels.end() ? 0 : estimate_noise(recording.time_s, values->second);
 }
 
 bool QualityCase::moves(const std::string& channel) const {

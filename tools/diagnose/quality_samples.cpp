@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/diagnose/noise.h"
 #include "tools/diagnose/quality_checks.h"
 #include "tools/diagnose/series.h"
 
@@ -89,7 +90,7 @@ void check_saturated(const QualityCase& c, const std::string& channel, const Ser
   constexpr double kBeyondPeak = 10;
   const Series valid = valid_of(x);
   if (valid.size() < kLeastSamples) return;
-  const double step = std::max(quantum_of(x), c.noise(channel));
+  const double step = std::max(resolution(x), c.noise(channel));
   const auto [low, high] = std::minmax_element(valid.begin(), valid.end());
   const std::vector<Run> runs = runs_of(x);
   for (const double extreme : {*low, *high}) {
@@ -125,7 +126,7 @@ bool turns_evenly(const QualityCase& c, const std::string& channel, const Series
   Series off = derivative(part(c.recording.time_s), part(c.recording.channels.at("position")),
                           kHalfWindow_s);
   for (double& slope : off) slope = std::abs(slope - value);
-  return median(off) < std::max(kSteps * quantum_of(x), kShare * std::abs(value));
+  return median(off) < std::max(kSteps * resolution(x), kShare * std::abs(value));
 }
 
 /// A sensor that stops while the machine goes on.
@@ -156,7 +157,7 @@ void check_frozen(const QualityCase& c, const std::string& channel, const Series
 }
 
 void check_steps(const QualityCase& c, const std::string& channel, const Series& x) {
-  const double quantum = quantum_of(x), range = range_of(x);
+  const double quantum = resolution(x), range = range_of(x);
   if (quantum == 0 || range == 0 || range / quantum >= kCoarse) return;
   c.say("coarse", channel, quantum / range, false,
         "comes in coarse steps of " + quality_number(quantum, c.unit(channel)) + ", " +
@@ -166,7 +167,7 @@ void check_steps(const QualityCase& c, const std::string& channel, const Series&
 void check_noise(const QualityCase& c, const std::string& channel, const Series& x) {
   const auto stated = c.set.noise.find(channel);
   if (stated == c.set.noise.end() || valid_of(x).size() < kLeastSamples) return;
-  const double seen = noise_of(x);
+  const double seen = estimate_noise(c.recording.time_s, x);
   const double ratio = seen / stated->second;
   if (ratio < kNoiseMisstated && ratio > 1 / kNoiseMisstated) return;
   c.say("noise", channel, std::abs(std::log(ratio)), false,

@@ -69,7 +69,7 @@ std::string warnings_html(const Verdict& verdict) {
 }
 
 std::string where_html(const Verdict& verdict) {
-  std::string html = element("h2", "Where it shows");
+  std::string html = element("h2", "Where it shows", " id=\"where\"");
   if (verdict.channels.empty()) {
     html +=
         element("p", "Nowhere in particular: measured and model differ by what noise explains.");
@@ -83,8 +83,23 @@ std::string where_html(const Verdict& verdict) {
   return html;
 }
 
+/// To the sections.
+std::string links_html(const Verdict& verdict) {
+  std::string html;
+  const auto add = [&html](const std::string& id, const std::string& name) {
+    html += (html.empty() ? "" : " | ") + element("a", name, " href=\"#" + id + "\"");
+  };
+  add("where", "where it shows");
+  add("what", "what it is");
+  add("how-much", "how much");
+  if (!verdict.setup.empty()) add("setup", "setup");
+  add("quality", "data quality");
+  add("next", "what next");
+  return "<p class=\"note\">" + html + "</p>\n";
+}
+
 std::string quality_html(const Verdict& verdict) {
-  std::string html = element("h2", "Data quality");
+  std::string html = element("h2", "Data quality", " id=\"quality\"");
   if (verdict.quality.empty()) return html + element("p", "Nothing to say against the data.");
   html += "<ul>";
   for (const bool serious : {true, false}) {
@@ -98,7 +113,7 @@ std::string quality_html(const Verdict& verdict) {
 }
 
 std::string next_html(const Verdict& verdict) {
-  std::string html = element("h2", "What next");
+  std::string html = element("h2", "What next", " id=\"next\"");
   if (!verdict.next_experiment.empty()) {
     html += element("p", "Experiment: " + verdict.next_experiment + ".");
   }
@@ -122,8 +137,8 @@ std::string report_page(const Verdict& verdict, const std::vector<DataSet>& data
   const ReportPlots plots = report_plots(verdict, rig);
   const std::string body = element("p", about(data_sets), " class=\"note\"") +
                            answer_html(verdict, rig) + warnings_html(verdict) +
-                           where_html(verdict) + plots.html + what_html(verdict) +
-                           how_much_html(verdict, rig) + setup_html(verdict) +
+                           links_html(verdict) + where_html(verdict) + plots.html +
+                           what_html(verdict) + how_much_html(verdict, rig) + setup_html(verdict) +
                            quality_html(verdict) + next_html(verdict);
   return make_page("Diagnosis of " + names_of(data_sets), body, plots.json);
 }

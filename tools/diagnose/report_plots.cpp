@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "tools/diagnose/series.h"
 #include "tools/diagnose/verdict_text.h"
 #include "tools/report/html.h"
 #include "tools/report/page.h"
@@ -17,6 +18,8 @@ using Json = nlohmann::ordered_json;
 using Values = std::vector<double>;
 
 constexpr std::size_t kMostSamples = 3000;  // a plot is 600 to 1200 pixels wide
+/// Not folded away: what a reader sees without scrolling past everything else.
+constexpr std::size_t kOpenOfEachRole = 2;
 
 bool is_named(const Verdict& verdict, const ChannelTrace& trace) {
   const auto& names = verdict.recordings;
@@ -49,6 +52,21 @@ Values residual(const Values& measured, const Values& predicted) {
   Values left(measured.size());
   for (std::size_t i = 0; i < left.size(); ++i) left[i] = measured[i] - predicted.at(i);
   return left;
+}
+
+/// Share of the signal's power that the model misses before and has after.
+double explained(const ChannelTrace& t) {
+  double before = 0, after = 0, mean = 0, power = 0;
+  const Values valid = valid_of(t.measured);
+  for (const double value : valid) mean += value / double(valid.size());
+  for (std::size_t i = 0; i < t.measured.size(); ++i) {
+    const double b = t.measured[i] - t.before.at(i), a = t.measured[i] - t.after.at(i);
+    if (std::isnan(a) || std::isnan(b)) continue;
+    before += b * b, after += a * a;
+    power += (t.measured[i] - mean) * (t.measured[i] - mean);
+  }
+  const double share = (before - after) / power;
+  return std::isfinite(share) ? share : 0;
 }
 
 class PlotWriter {
@@ -124,24 +142,34 @@ std::vector<std::size_t> thinned(const std::vector<const Values*>& series, std::
   return {kept.begin(), kept.end()};
 }
 
+std::vector<std::size_t> traces_to_open(const Verdict& verdict) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < verdict.traces.size(); ++i) order.push_back(i);
+  const auto rank = [&verdict](std::size_t i) {
+    const ChannelTrace& t = verdict.traces[i];
+    return std::pair(is_named(verdict, t) ? 0 : 1, -explained(t));
+  };
+  std::stable_sort(order.begin(), order.end(),
+                   [&rank](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
+  std::size_t fitted = 0, held_out = 0;
+  std::erase_if(order, [&](std::size_t i) {
+    return (verdict.traces[i].holdout ? held_out : fitted)++ >= kOpenOfEachRole;
+  });
+  return order;
+}
+
 ReportPlots report_plots(const Verdict& verdict, RigKind rig) {
   PlotWriter plots(verdict, rig);
-  bool any_named = false;
-  for (const ChannelTrace& t : verdict.traces) any_named = any_named || is_named(verdict, t);
-  for (const ChannelTrace& t : verdict.traces) {
-    if (is_named(verdict, t)) plots.add(t);
+  const std::vector<std::size_t> open = traces_to_open(verdict);
+  for (const std::size_t i : open) plots.add(verdict.traces[i]);
+  const std::size_t folded = verdict.traces.size() - open.size();
+  if (folded == 0) return plots.take();
+  plots.add_text("<details><summary>Other recordings and channels (" + std::to_string(folded) +
+                 ")</summary>\n");
+  for (std::size_t i = 0; i < verdict.traces.size(); ++i) {
+    if (std::find(open.begin(), open.end(), i) == open.end()) plots.add(verdict.traces[i]);
   }
-  const auto others = std::count_if(verdict.traces.begin(), verdict.traces.end(),
-                                    [&](const ChannelTrace& t) { return !is_named(verdict, t); });
-  if (others == 0) return plots.take();
-  if (any_named) {
-    plots.add_text("<details><summary>Other recordings and channels (" + std::to_string(others) +
-                   ")</summary>\n");
-  }
-  for (const ChannelTrace& t : verdict.traces) {
-    if (!is_named(verdict, t)) plots.add(t);
-  }
-  if (any_named) plots.add_text("</details>\n");
+  plots.add_text("</details>\n");
   return plots.take();
 }
 

@@ -14,7 +14,11 @@ struct ReportPlots {
   std::string json;  // what page.js draws into them
 };
 
-/// Recordings that the verdict points at first; where those are some, the others are folded away.
+/// The traces that are shown at once, by index, most telling first: of recordings that the verdict
+/// points at, where what was found explains most; some of what was fitted and some held out.
+std::vector<std::size_t> traces_to_open(const Verdict& verdict);
+
+/// Those of traces_to_open first, the others folded away.
 ReportPlots report_plots(const Verdict& verdict, RigKind rig);
 
 /// Indices of at most about `most` samples that keep the peaks of all `series`.

@@ -50,12 +50,6 @@ std::string table(const std::vector<std::string>& headings, const std::string& r
   return html + "</tr>\n" + rows + "</table></div>\n";
 }
 
-std::string probability_text(double probability) {
-  char text[16];
-  std::snprintf(text, sizeof text, "%.3f", probability);
-  return text;
-}
-
 /// none, unknown and each effect that may be at work.
 std::string probabilities_html(const Verdict& verdict) {
   constexpr double kLeastShown = 0.01;
@@ -193,7 +187,7 @@ std::string evidence_words(double evidence) {
 }
 
 std::string what_html(const Verdict& verdict) {
-  std::string html = element("h2", "What it is");
+  std::string html = element("h2", "What it is", " id=\"what\"");
   html += probabilities_html(verdict) + element("h3", "Models that competed") +
           hypotheses_html(verdict);
   for (const std::string& name : effects_in_question(verdict)) {
@@ -220,7 +214,7 @@ std::string how_much_html(const Verdict& verdict, RigKind rig) {
             number_cell(number(held_after)) + number_cell(removed(held, held_after)) +
             number_cell(number(at(verdict.noise_floor, key))) + "</tr>\n";
   }
-  std::string html = element("h2", "How much") +
+  std::string html = element("h2", "How much", " id=\"how-much\"") +
                      table({"channel", "#fitted: before", "#after", "#less by", "#held out: before",
                             "#after", "#less by", "#noise floor"},
                            rows) +
@@ -246,7 +240,7 @@ std::string setup_html(const Verdict& verdict) {
             number_cell(number(s.before)) + number_cell(number(s.after)) +
             number_cell(number(off)) + "</tr>\n";
   }
-  return element("h2", "Values of the setup, stated and refitted") +
+  return element("h2", "Values of the setup, stated and refitted", " id=\"setup\"") +
          table({"value", "#stated", "#refitted, nominal model", "#refitted, with what was found",
                 "#off by, in sigma"},
                rows);

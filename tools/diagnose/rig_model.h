@@ -8,6 +8,7 @@
 
 #include "sim/effects/effect.h"
 #include "tools/diagnose/data_set.h"
+#include "tools/diagnose/verdict.h"
 
 namespace hoof::tools {
 
@@ -80,6 +81,9 @@ class RigModel {
   virtual Prediction predict(int recording, std::span<const double> setup,
                              std::span<const ActiveEffect> effects, Rollout rollout) const = 0;
 
+  /// A prediction takes no integration in time: a search can afford thousands more of them.
+  virtual bool quick() const { return false; }
+
   /// Conditions in rig channels that tell where an effect may be at work, e.g. "velocity < 0", and
   /// for each sample whether it holds; for the verdict's `where`.
   struct Condition {
@@ -87,6 +91,9 @@ class RigModel {
     std::vector<bool> holds;
   };
   virtual std::vector<Condition> conditions(int recording) const = 0;
+
+  /// What these recordings can tell at most, beside what is wrong with single ones.
+  virtual std::vector<QualityNote> notes() const { return {}; }
 };
 
 /// @throws UserError where the data sets lack a key or channel of the rig, or are of rigs that

@@ -14,6 +14,8 @@ namespace {
 constexpr double kLeastVariance = 0.8;
 /// A start is scaled to the size the recordings ask for, by no more than this.
 constexpr double kMostScale = 30;
+/// Of its start's size, where an effect does nothing to speak of.
+constexpr double kAlmostNothing = 1e-4;
 /// Residuals count for no less than one in this many.
 constexpr double kLeastEffective = 1.0 / 200;
 
@@ -45,6 +47,11 @@ Tangent tangent(const Fitter& fitter, const Fit& fit, const Fitter::Weights& wei
   return t;
 }
 
+Eigen::VectorXd perpendicular(const Tangent& tangent, const Eigen::VectorXd& r) {
+  if (tangent.basis.cols() == 0) return r;
+  return r - tangent.basis * (tangent.basis.transpose() * r);
+}
+
 Effects with(const Effects& effects, const sim::EffectInfo* one) {
   Effects sum = effects;
   sum.push_back(one);
@@ -65,8 +72,7 @@ std::vector<Candidate> starts_beside(const Fitter& fitter, const Fit& base, cons
     x << base.x, start.x.tail(own);
     const int shift = both.size() - alone.size();
     const Eigen::VectorXd r = fitter.residuals(both, x, weights).head(tangent.r.size());
-    Eigen::VectorXd change = r - tangent.r;
-    if (tangent.basis.cols() > 0) change -= tangent.basis * (tangent.basis.transpose() * change);
+    const Eigen::VectorXd change = perpendicular(tangent, r - tangent.r);
     const double square = change.squaredNorm();
     if (!(square > 1e-12)) continue;
     double scale = -tangent.r.dot(change) / square;
@@ -87,8 +93,9 @@ std::vector<Candidate> starts_beside(const Fitter& fitter, const Fit& base, cons
         x[size + shift] *= limited;
       }
     } else {
-      // No size to scale: what the start itself gains.
-      gain = scale > 0 ? 0.5 * std::min(scale, 1.0) * (2 - std::min(scale, 1.0)) * square : 0;
+      // No size to scale: what the start itself gains, the base's own parameters refitted linearly.
+      gain = 0.5 * (perpendicular(tangent, tangent.r).squaredNorm() -
+                    perpendicular(tangent, r).squaredNorm());
     }
     candidates.push_back({both.effects(), x, gain, size >= 0 ? size + shift : -1, by_log});
   }
@@ -141,7 +148,7 @@ class Search {
     std::vector<Fit> fits(candidates.size());
     std::atomic<int> done{0};
     for_each_task(static_cast<int>(candidates.size()), options_.threads, [&](int i) {
-      fits[i] = anew ? settle(best_size(candidates[i]))
+      fits[i] = anew ? follow_one(candidates[i])
                      : polish(fitter_.fit(candidates[i].effects, candidates[i].x,
                                           options_.iterations, fitter_.weights()));
       fitter_.judge(fits[i]);
@@ -160,6 +167,20 @@ class Search {
         *known = std::move(fit);
       }
     }
+  }
+
+  /// A hypothesis holds the nominal model: one that comes out worse went astray, and is followed
+  /// once more from there.
+  Fit follow_one(const Candidate& candidate) const {
+    const Fit fit = settle(best_size(candidate));
+    const Fit& nominal = result_.fits[0];
+    if (fit.objective <= nominal.objective || candidate.size_coordinate < 0) return fit;
+    Eigen::VectorXd x = candidate.x;
+    x.head(nominal.x.size()) = nominal.x;
+    double& size = x[candidate.size_coordinate];
+    size = candidate.by_log ? size + std::log(kAlmostNothing) : size * kAlmostNothing;
+    const Fit again = fitter_.fit(candidate.effects, x, options_.iterations, fitter_.weights());
+    return again.objective < fit.objective ? again : fit;
   }
 
   /// Each coordinate tried both ways, with a step that halves where neither helps.
@@ -195,7 +216,7 @@ class Search {
     if (candidate.size_coordinate < 0) return fit;
     const auto weights = fitter_.roomy_weights(result_.fits[0].squares, 0.5);
     double least = 1e300;
-    for (const double scale : {1.0, 0.4, 0.15, 0.03}) {
+    for (const double scale : {1.0, 0.4, 0.15, 0.05, 0.01, 1e-3}) {
       Eigen::VectorXd x = candidate.x;
       double& size = x[candidate.size_coordinate];
       size = candidate.by_log ? size + std::log(scale) : size * scale;
@@ -218,7 +239,9 @@ class Search {
     std::vector<Candidate> all;
     for (auto& list : found) {
       if (static_cast<int>(list.size()) > starts) list.resize(starts);
-      std::erase_if(list, [&list](const Candidate& c) { return c.gain < 0.3 * list[0].gain; });
+      const double least = list.empty() ? 0 : 0.3 * std::abs(list[0].gain);
+      std::erase_if(
+          list, [least](const Candidate& c) { return c.size_coordinate >= 0 && c.gain < least; });
       for (Candidate& c : list) all.push_back(std::move(c));
     }
     return all;

@@ -13,7 +13,7 @@ struct SearchOptions {
   int threads = 1;
   /// Share done and what is being done; false: stop.
   std::function<bool(double, const std::string&)> progress;
-  int fits_of_single = 2;  // starts of each effect that are followed to the end
+  int fits_of_single = 3;  // starts of each effect that are followed to the end
   int pair_fits = 20;      // pairs that are fitted
   int iterations = 10;
   int singles = 1000;   // effects that are fitted alone, those that a first look promises most of

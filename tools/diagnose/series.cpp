@@ -4,14 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "tools/diagnose/noise.h"
+
 namespace hoof::tools {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kMedianOfNormal = 0.6745;  // of the size of a standard normal deviate
-/// A sensor that gives each value three times or more has a step that is seen.
-constexpr std::size_t kLeastRepeats = 3;
-constexpr double kRounding = 1e-9;  // of the range: values nearer than that are one value
 
 }  // namespace
 
@@ -50,54 +48,11 @@ double deviation(const Series& values) {
   return std::sqrt(squares / double(valid.size()));
 }
 
-double quantum_of(const Series& values) {
-  Series sorted = valid_of(values);
-  if (sorted.size() < kLeastRepeats) return 0;
-  std::sort(sorted.begin(), sorted.end());
-  const double least = kRounding * (sorted.back() - sorted.front());
-  double quantum = 0;
-  std::size_t distinct = 1;
-  for (std::size_t i = 1; i < sorted.size(); ++i) {
-    const double gap = sorted[i] - sorted[i - 1];
-    if (gap <= least) continue;
-    ++distinct;
-    if (quantum == 0 || gap < quantum) quantum = gap;
-  }
-  return distinct * kLeastRepeats <= sorted.size() ? quantum : 0;
-}
-
-double noise_of(const Series& values) {
-  Series sizes;
-  for (std::size_t i = 3; i < values.size(); ++i) {
-    const double third = values[i] - 3 * values[i - 1] + 3 * values[i - 2] - values[i - 3];
-    if (!std::isnan(third)) sizes.push_back(std::abs(third));
-  }
-  const double rounding = quantum_of(values) / std::sqrt(12.0);
-  if (sizes.empty()) return rounding;
-  return std::max(rounding, median(sizes) / (kMedianOfNormal * std::sqrt(20.0)));
-}
-
 Series derivative(const Series& time_s, const Series& values, double half_window_s) {
-  constexpr std::size_t kLeastEachSide = 2;
-  constexpr int kLeastValid = 3;
-  const std::size_t n = values.size();
-  Series slopes(n, kNan);
-  for (std::size_t i = kLeastEachSide; i + kLeastEachSide < n; ++i) {
-    std::size_t first = i - kLeastEachSide, last = i + kLeastEachSide;
-    while (first > 0 && time_s[i] - time_s[first - 1] <= half_window_s) --first;
-    while (last + 1 < n && time_s[last + 1] - time_s[i] <= half_window_s) ++last;
-    double t = 0, x = 0, tt = 0, tx = 0;
-    int count = 0;
-    for (std::size_t j = first; j <= last; ++j) {
-      if (std::isnan(values[j])) continue;
-      const double dt = time_s[j] - time_s[i];
-      t += dt, x += values[j], tt += dt * dt, tx += dt * values[j];
-      ++count;
-    }
-    const double determinant = count * tt - t * t;
-    if (count >= kLeastValid && determinant > 0) slopes[i] = (count * tx - t * x) / determinant;
-  }
-  return slopes;
+  constexpr double kLeastSteps = 2.01;
+  Series steps;
+  for (std::size_t i = 1; i < time_s.size(); ++i) steps.push_back(time_s[i] - time_s[i - 1]);
+  return slopes(time_s, values, std::max(half_window_s, kLeastSteps * median(steps)));
 }
 
 Relation relate_shifted(const Series& a, const Series& b, int shift) {

@@ -1,4 +1,4 @@
-// Robust numbers of a series of samples, NaN where one is missing.
+// Numbers of a series of samples, NaN where one is missing; noise and resolution are in noise.h.
 #pragma once
 
 #include <vector>
@@ -20,16 +20,8 @@ double range_of(const Series& values);
 /// Standard deviation about the mean.
 double deviation(const Series& values);
 
-/// Step of a sensor that gives few different values; 0 where values hardly ever repeat.
-double quantum_of(const Series& values);
-
-/// 1-sigma noise from third differences, which pass over whatever a parabola follows: the median
-/// of their size over 0.6745 sqrt(20), not below what rounding to the sensor's step makes.
-/// Noise that is correlated from sample to sample comes out too small.
-double noise_of(const Series& values);
-
-/// Slope at each sample of the line fitted to those within half_window_s of it, at least two on
-/// each side; NaN where fewer are valid.
+/// Slope at each sample of the line fitted to those within half_window_s of it, and at least two
+/// steps of time (see slopes in noise.h).
 Series derivative(const Series& time_s, const Series& values, double half_window_s);
 
 /// Correlation of a with b, and a / b in the sense of least squares with both uncertain (the

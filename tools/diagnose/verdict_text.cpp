@@ -17,12 +17,6 @@ constexpr std::size_t kShownRivals = 4;
 constexpr double kLeastShownProbability = 0.005;
 constexpr std::size_t kShownSetup = 5;
 
-std::string probability_text(double probability) {
-  char text[16];
-  std::snprintf(text, sizeof text, "%.2f", probability);
-  return text;
-}
-
 std::string joined(const std::vector<std::string>& words, const std::string& between) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
@@ -153,6 +147,15 @@ std::string channel_unit(RigKind rig, const std::string& channel) {
 std::string channel_of_error(const std::string& key) {
   const std::string ending = "_rmse";
   return key.ends_with(ending) ? key.substr(0, key.size() - ending.size()) : key;
+}
+
+std::string probability_text(double probability) {
+  constexpr double kHalfDigit = 0.005;
+  if (probability > 1 - kHalfDigit) return "> 0.99";
+  if (probability < kHalfDigit) return "< 0.01";
+  char text[16];
+  std::snprintf(text, sizeof text, "%.2f", probability);
+  return text;
 }
 
 std::string with_unit(double value, const std::string& unit) {

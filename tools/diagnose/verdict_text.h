@@ -15,6 +15,9 @@ std::string channel_unit(RigKind rig, const std::string& channel);
 /// The channel of a key of errors: "position_rmse" -> "position".
 std::string channel_of_error(const std::string& key);
 
+/// Two decimals; never "1.00" or "0.00", which no finite data prove.
+std::string probability_text(double probability);
+
 /// A number with a unit in three digits: "0.0312 rad", of unit "1" the number alone; "diverged"
 /// where it is not finite.
 std::string with_unit(double value, const std::string& unit);

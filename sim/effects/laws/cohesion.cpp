@@ -2,8 +2,8 @@
 //   force = F + strength A min(z / z0, 1)
 //
 // A constant strength over the area: what moist or fine sand bears before depth gives it any. It
-// ramps in over the first z0 = 0.5 mm, where a real plate beds in, so that the force is continuous.
-// Pressed only: a plate that is drawn out is not held (force is never tension).
+// ramps in over the first z0 = 0.1 mm, so that the force is continuous: less than any press
+// resolves. Pressed only: a plate that is drawn out is not held (force is never tension).
 #include <algorithm>
 
 #include "sim/effects/effect.h"
@@ -16,7 +16,7 @@ class Cohesion final : public SoilEffect {
   explicit Cohesion(std::span<const double> values) : strength_Pa_(values[0]) {}
 
   double force_N(double force_N, const SoilContact& contact) const override {
-    constexpr double kRamp_m = 0.5e-3;
+    constexpr double kRamp_m = 0.1e-3;
     return force_N + strength_Pa_ * contact.area_m2 * std::min(contact.depth_m / kRamp_m, 1.0);
   }
 

@@ -33,8 +33,8 @@ EffectInfo hard_layer_effect() {
       .summary = "below some depth the ground is stiffer, or softer",
       .equation = "force = F(d) + ratio (F(z) - F(d)) where z > d",
       .source = "Lyasko: J. Terramechanics 47 (2010) 1, LSA model with the depth of a firm layer",
-      .parameters = {{"depth", "m", 1e-4, 1, 0.02, true, false, {0.005, 0.01, 0.02, 0.04}},
-                     {"ratio", "1", 0.02, 100, 3, true, false, {2.5, 0.4}}},
+      .parameters = {{"depth", "m", 1e-3, 1, 0.02, true, false, {0.005, 0.01, 0.02, 0.04}},
+                     {"ratio", "1", 0.05, 20, 3, true, false, {2.5, 0.4}}},
       .experiment =
           "press two plates of different size well beyond the suspected depth: a layer stays at "
           "its depth",

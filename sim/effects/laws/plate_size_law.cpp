@@ -31,7 +31,7 @@ EffectInfo plate_size_law_effect() {
           .equation = "pressure = (k_c/b + k_phi) z^n (b/b0)^exponent",
           .source =
               "Meirion-Griffith, Spenko: J. Terramechanics 48 (2011) 149, pressure with diameter^m",
-          .parameters = {{"exponent", "1", -3, 3, 0.3, false, false, {0.2, -0.2}}},
+          .parameters = {{"exponent", "1", -3, 3, 0.4, false, false, {0.2, -0.2}}},
           .experiment =
               "press plates of at least four sizes over a ratio of five, each on fresh sand, three "
               "times",

@@ -30,6 +30,7 @@ const std::vector<std::pair<std::string, std::vector<double>>> kNothing = {
     {"unlisted_bearing_limit", {0}},
     {"unlisted_crust", {0, 0.003}},
     {"unlisted_force_wave", {0, 0.01, 1}},
+    {"unlisted_side_friction", {0}},
     {"unlisted_surface_offset", {0}},
     {"unlisted_rig_settling", {0, 10}},
     {"unlisted_relaxation", {0, 2}}};
@@ -144,15 +145,15 @@ TEST_CASE("factors of the nominal strength in closed form, both signs") {
   }
 }
 
-TEST_CASE("cohesion adds its strength over the area, whole below half a millimetre") {
+TEST_CASE("cohesion adds its strength over the area, whole below a tenth of a millimetre") {
   const double strength_Pa = 3000;
   const auto cohesion = one("cohesion", {strength_Pa});
-  for (const double depth_m : {0.0006, 0.002, 0.03}) {
+  for (const double depth_m : {0.00011, 0.002, 0.03}) {
     const SoilContact contact = contact_at(depth_m);
     CHECK(soil_force_N(contact, cohesion) ==
           Approx(nominal_N(contact) + strength_Pa * contact.area_m2));
   }
-  const SoilContact half = contact_at(0.00025);
+  const SoilContact half = contact_at(0.00005);
   CHECK(soil_force_N(half, cohesion) == Approx(nominal_N(half) + strength_Pa * half.area_m2 / 2));
   CHECK(soil_force_N(contact_at(1e-9), cohesion) < 1e-3);
   CHECK(soil_force_N(contact_at(-1e-9), cohesion) == 0);

@@ -54,6 +54,14 @@ TEST_CASE("a wave of force repeats with its period of depth") {
   CHECK(factor(0.003) == Approx(2 - factor(0.007)));
 }
 
+TEST_CASE("friction on the side grows with the square of depth and with the plate's girth") {
+  const auto side = one("unlisted_side_friction", {3e5});
+  const SoilContact contact = contact_at(0.02);
+  // A disc of 80 mm has a girth of 0.2513 m; its side bears 3e5 z on the average of 0 to z.
+  const double extra_N = soil_force_N(contact, side) - soil_force_N(contact, {});
+  CHECK(extra_N == Approx(0.25133 * 3e5 * 0.02 * 0.02 / 2).epsilon(1e-4));
+}
+
 TEST_CASE("a rig that settles travels its play and no more") {
   const auto settling = one("unlisted_rig_settling", {4e-4, 15});
   CHECK(settling[0]->rig_travel_m(0) == 0);

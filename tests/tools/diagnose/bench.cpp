@@ -5,6 +5,9 @@
 #include <numbers>
 #include <random>
 
+#include "tools/run/csv_writer.h"
+#include "tools/run/output_file.h"
+
 namespace hoof::tests {
 namespace {
 
@@ -74,6 +77,32 @@ DataSet pendulum_bench(const PendulumBench& bench) {
   }
   set.recordings = {r};
   return set;
+}
+
+std::filesystem::path write_bench(const DataSet& set, const std::filesystem::path& folder) {
+  const auto number = [](double value) { return format_number(value); };
+  std::string toml =
+      "format = 1\nname = \"" + set.name + "\"\nrig = \"" + rig_name(set.rig) + "\"\n\n[setup]\n";
+  if (set.setup.law == DriveLaw::kImpedance) toml += "law = \"impedance\"\n";
+  for (const auto& [key, v] : set.setup.values) {
+    toml += key + " = { value = " + number(v.value) + ", sigma = " + number(v.sigma) + " }\n";
+  }
+  for (const Recording& r : set.recordings) {
+    toml += "\n[[recording]]\ndata = \"" + r.name + "\"\nrole = \"" +
+            (r.holdout ? "holdout" : "fit") + "\"\n[recording.channels]\ntime = \"time\"\n";
+    std::string csv = "time";
+    for (const auto& [channel, values] : r.channels) {
+      toml += channel + " = \"" + channel + "\"\n";
+      csv += "," + channel;
+    }
+    for (std::size_t i = 0; i < r.time_s.size(); ++i) {
+      csv += "\n" + number(r.time_s[i]);
+      for (const auto& [channel, values] : r.channels) csv += "," + number(values[i]);
+    }
+    write_file(folder / r.name, csv + "\n");
+  }
+  write_file(folder / "bench.toml", toml);
+  return folder / "bench.toml";
 }
 
 DataSet sand_bench(std::uint64_t seed) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 
 #include "tools/diagnose/data_set.h"
 
@@ -19,6 +20,9 @@ struct PendulumBench {
 /// A link under the law "impedance" that follows sines, ramps and steps, with dry and viscous
 /// friction; channels position_goal, position, velocity, torque. Recording "run.csv", to fit.
 tools::DataSet pendulum_bench(const PendulumBench& bench);
+
+/// Writes recordings as CSV and the data set as `folder`/bench.toml.
+std::filesystem::path write_bench(const tools::DataSet& set, const std::filesystem::path& folder);
 
 /// A plate of 50 mm by 100 mm pressed 30 mm into Bekker's soil and out again. "press.csv".
 tools::DataSet sand_bench(std::uint64_t seed);

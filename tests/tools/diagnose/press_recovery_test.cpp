@@ -139,6 +139,7 @@ TEST_CASE("each effect is found again from noisy presses, within its interval") 
       {"unlisted_bearing_limit", {2e-6}, {5e-7}},
       {"unlisted_crust", {4000, 0.004}, {500, 0.006}},
       {"unlisted_force_wave", {0.1, 0.008, 0.6}, {0.05, 0.0085, 0.4}},
+      {"unlisted_side_friction", {4e5}, {1e5}},
       {"unlisted_surface_offset", {7e-4}, {1e-4}},
       {"unlisted_rig_settling", {4e-4, 12}, {2e-4, 20}},
       {"unlisted_relaxation", {0.15, 2}, {0.05, 1}}};

@@ -27,7 +27,9 @@ TEST_CASE("what is folded away is drawn at its width once it is opened") {
   if (browser_is_missing()) return;
   const ScratchFolder scratch;
   const auto page = scratch.path() / "report.html";
-  std::string html = report_page(sample_verdict(), sample_data_sets());
+  Verdict verdict = sample_verdict();
+  for (int i = 0; i < 3; ++i) verdict.traces.push_back(verdict.traces[0]);
+  std::string html = report_page(verdict, sample_data_sets());
   // The event itself comes after the page is dumped; then, how wide is the last plot?
   html +=
       "<script>const fold = document.querySelector('details');"

@@ -79,6 +79,30 @@ TEST_CASE("Plots mark the regions in their own recording, and name what is held 
   CHECK(plots[1]["series"][1]["values"][10].get<double>() == Approx(signal - before).margin(1e-5));
 }
 
+TEST_CASE("Of many recordings the most telling stand open, of both roles") {
+  Verdict v = sample_verdict();
+  const ChannelTrace told = v.traces[0];
+  ChannelTrace nothing = told;
+  nothing.after = nothing.before;
+  v.traces.clear();
+  // 0..3 explain nothing, 4..6 do; odd ones are held out.
+  for (int i = 0; i < 7; ++i) {
+    v.traces.push_back(i < 4 ? nothing : told);
+    v.traces.back().recording = "run" + std::to_string(i) + ".csv";
+    v.traces.back().holdout = i % 2 == 1;
+  }
+  v.recordings = {};
+  using Indices = std::vector<std::size_t>;
+  CHECK(traces_to_open(v) == Indices{4, 5, 6, 1});
+  v.recordings = {"run0.csv", "run2.csv", "run3.csv"};
+  CHECK(traces_to_open(v) == Indices{0, 2, 3, 5});
+  const ReportPlots plots = report_plots(v, kServo);
+  CHECK(plots.html.find("run3.csv") < plots.html.find("<details>"));
+  CHECK(plots.html.find("run1.csv") > plots.html.find("<details>"));
+  CHECK(plots.html.find("channels (3)") != std::string::npos);
+  CHECK(nlohmann::json::parse(plots.json)["plots"].size() == 14);
+}
+
 TEST_CASE("A long recording is thinned without losing a peak") {
   std::vector<double> x(100000, 0.0), y(100000, 1.0);
   x[12345] = 5;
