@@ -37,7 +37,7 @@ Layout::Layout(const RigModel& model, Effects effects)
 
 double Layout::setup_value(int i, double x) const {
   const DoubtfulValue& doubt = model_->doubtful()[i];
-  return std::max(doubt.value + x * doubt.sigma, doubt.low);
+  return std::clamp(doubt.value + x * doubt.sigma, doubt.low, doubt.high);
 }
 
 double Layout::effect_value(int i, double x) const {

@@ -94,6 +94,29 @@ std::vector<double> slopes(std::span<const double> time_s, std::span<const doubl
   return all;
 }
 
+std::vector<double> without_noise(std::span<const double> time_s, std::span<const double> values) {
+  constexpr int kSpan = 9;
+  constexpr double kMostLeft = 1.5;  // times the noise: a corner or a step lies in the span
+  std::vector<double> smooth(values.begin(), values.end());
+  const double noise = estimate_noise(time_s, values);
+  if (!(noise > 0)) return smooth;
+  for (std::size_t i = 0; i + kSpan <= values.size(); ++i) {
+    Eigen::Matrix<double, kSpan, 3> A;
+    Eigen::Matrix<double, kSpan, 1> y;
+    const std::size_t middle = i + kSpan / 2;
+    const double scale = time_s[i + kSpan - 1] - time_s[i];
+    for (int k = 0; k < kSpan; ++k) {
+      const double x = 2 * (time_s[i + static_cast<std::size_t>(k)] - time_s[middle]) / scale;
+      A.row(k) << 1, x, x * x;
+      y[k] = values[i + static_cast<std::size_t>(k)];
+    }
+    const Eigen::Vector3d fit = (A.transpose() * A).ldlt().solve(A.transpose() * y);
+    const double left = (y - A * fit).norm() / std::sqrt(kSpan - 3.0);
+    if (left < kMostLeft * noise) smooth[middle] = fit[0];
+  }
+  return smooth;
+}
+
 double rms(std::span<const double> values) {
   double sum = 0, n = 0;
   for (const double v : values) {

@@ -24,6 +24,8 @@ constexpr double kStartSpan_s = 0.02;  // of the contract
 /// Doubt of when inputs act: of a control period, and of the time between samples.
 constexpr double kPeriodShare = 0.2;
 constexpr double kSampleShare = 0.05;
+/// And no more than this many of its sigmas: what is later still is a delay.
+constexpr double kMostTiming = 2;
 
 struct PendulumKey {
   const char* name;
@@ -112,6 +114,9 @@ PendulumModel::PendulumModel(std::vector<DataSet> data_sets) : data_sets_(std::m
     for (Recording& recording : data_set.recordings) {
       for (auto& [name, values] : recording.channels) {
         if (is_input(name, recording.setup.law)) fill_gaps(values);
+        if (name == "torque" && recording.setup.law == DriveLaw::kTorque) {
+          values = without_noise(recording.time_s, values);
+        }
       }
     }
   }
@@ -189,7 +194,7 @@ void PendulumModel::add_timing(Run& run) {
   int index = 0;
   while (index < static_cast<int>(doubtful_.size()) && doubtful_[index].name != name) ++index;
   if (index == static_cast<int>(doubtful_.size())) {
-    doubtful_.push_back({name, 0, sigma, -1});
+    doubtful_.push_back({name, 0, sigma, -kMostTiming * sigma, kMostTiming * sigma});
   }
   run.timing = index;
 }

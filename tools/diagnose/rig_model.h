@@ -1,6 +1,7 @@
 // A rig as the search sees it: doubtful numbers and effects in, predicted channels out.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -18,6 +19,7 @@ struct DoubtfulValue {
   double value = 0;
   double sigma = 0;
   double low = 0;  // -infinity where it may be negative
+  double high = std::numeric_limits<double>::infinity();
 };
 
 struct ActiveEffect {
