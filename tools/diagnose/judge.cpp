@@ -21,6 +21,8 @@ constexpr double kLeastGain = 2, kNoFinding = 4;
 /// squares above the noise; a share less by kRemovedSpread makes it e times more likely.
 constexpr double kRemovedByKnown = 0.45;
 constexpr double kRemovedSpread = 0.06;
+/// Share of answers that are wrong although the evidence is overwhelming, on concealed plants.
+constexpr double kDoubt = 0.12;
 
 /// A held-out channel of one recording decides no more than this, in log likelihood.
 constexpr double kMostOfOneGroup = 15;
@@ -113,6 +115,15 @@ void suspect_unknown(std::vector<Standing>& standings) {
   }
 }
 
+/// The search may have missed the truth, and the list may not hold it: no finding is surer than
+/// this leaves it.
+void keep_doubt(Judgement& j) {
+  for (Standing& s : j.standings) s.probability *= 1 - kDoubt;
+  for (auto& [name, marginal] : j.marginals) marginal *= 1 - kDoubt;
+  j.none = (1 - kDoubt) * j.none + 0.4 * kDoubt;
+  j.unknown = (1 - kDoubt) * j.unknown + 0.6 * kDoubt;
+}
+
 }  // namespace
 
 Judgement judge(const Fitter& fitter, const SearchResult& result) {
@@ -177,6 +188,7 @@ Judgement judge(const Fitter& fitter, const SearchResult& result) {
       }
     }
   }
+  keep_doubt(j);
   return j;
 }
 
