@@ -32,6 +32,13 @@ std::string change_of(const Errors& before, const Errors& after) {
   return text;
 }
 
+bool all_smaller(const Errors& a, const Errors& b) {
+  return !a.empty() && std::all_of(a.begin(), a.end(), [&b](const auto& entry) {
+    const auto other = b.find(entry.first);
+    return other != b.end() && entry.second < other->second;
+  });
+}
+
 }  // namespace
 
 void write_evidence(const Judgement& judgement, const Fitter& fitter, const Fit& none,
@@ -74,6 +81,16 @@ void write_evidence(const Judgement& judgement, const Fitter& fitter, const Fit&
       if (std::abs(winner.x[i]) < 2.5) continue;
       contra.push_back("It needs " + fitter.model().doubtful()[static_cast<std::size_t>(i)].name +
                        " " + number(std::abs(winner.x[i])) + " sigma from what was stated.");
+    }
+  }
+  // A member that does better alone, where nothing was fitted.
+  if (winner.effects.size() > 1) {
+    for (const AblationRow& row : verdict.ablation) {
+      const bool single = row.model.starts_with("nominal + ") &&
+                          row.model.find_first_of("+,", 10) == std::string::npos;
+      if (!single || !all_smaller(row.holdout, verdict.after.holdout)) continue;
+      contra.push_back("On held-out recordings " + row.model.substr(10) + " alone comes nearer: " +
+                       change_of(verdict.after.holdout, row.holdout) + ".");
     }
   }
   if (rival) {

@@ -82,6 +82,21 @@ double tempered(const Standing& s, const Fit& none, double tolerance, double mos
   return std::min(cost, 0.0) + (nothing ? std::min(counted, 0.0) - kNoFinding : counted);
 }
 
+/// A pair that predicts held-out recordings worse than one of its members alone has fitted the rest
+/// too well: half of what it loses, in log likelihood.
+double worse_held_out(const Fitter& fitter, const SearchResult& result, const Fit& pair) {
+  if (pair.effects.size() < 2) return 0;
+  const Fit& none = result.fits[0];
+  double best = -1e300;
+  for (const Fit& fit : result.fits) {
+    const bool member =
+        fit.effects.size() == 1 &&
+        std::find(pair.effects.begin(), pair.effects.end(), fit.effects[0]) != pair.effects.end();
+    if (member) best = std::max(best, holdout_gain(fitter, fit, none));
+  }
+  return 0.5 * std::max(best - holdout_gain(fitter, pair, none), 0.0);
+}
+
 /// By channel the share of squares above the noise that is gone, the mean over the groups weighted
 /// by how far the nominal model is off in them.
 double removed(const Fitter& fitter, const Fit& fit, const Fit& none) {
@@ -151,7 +166,8 @@ Judgement judge(const Fitter& fitter, const SearchResult& result) {
     const Gains g = gains(fitter, fit, none);
     s.explained = g.possible > 0 ? g.made / g.possible : 1;
     s.removed = removed(fitter, fit, none);
-    score.push_back(tempered(s, none, tolerance, most) + log_prior(fit, singles, pairs, stand_ins));
+    score.push_back(tempered(s, none, tolerance, most) - worse_held_out(fitter, result, fit) +
+                    log_prior(fit, singles, pairs, stand_ins));
     top = std::max(top, score.back());
     j.standings.push_back(s);
   }
