@@ -66,6 +66,19 @@ bool used(const PendulumKey& key, DriveLaw law) {
          (key.impedance && law == DriveLaw::kImpedance);
 }
 
+/// What nobody stated is not zero but unknown: half a normal distribution of this width, a share of
+/// what the payload makes.
+double unstated_sigma(std::string_view key, const PendulumSettings& s) {
+  const double torque = s.gravity_m_s2 * s.payload_mass_kg * s.payload_length_m;
+  if (key == "coulomb") return 0.1 * torque;
+  if (key == "viscous") return 0.02 * torque;
+  if (key == "arm_mass") return 0.1 * s.payload_mass_kg;
+  if (key == "armature") {
+    return 0.2 * s.payload_mass_kg * s.payload_length_m * s.payload_length_m;
+  }
+  return 0;
+}
+
 PendulumSettings read_settings(const DataSet& data_set, const Recording& recording) {
   PendulumSettings settings;
   const Setup& setup = recording.setup;
@@ -164,14 +177,17 @@ void PendulumModel::add(const DataSet& data_set, const Recording& recording) {
 
 void PendulumModel::add_doubts(Run& run) {
   for (const PendulumKey& key : kKeys) {
-    const SetupValue* value = run.recording->setup.find(key.name);
+    const SetupValue* stated = run.recording->setup.find(key.name);
+    const SetupValue guess{0, stated ? 0 : unstated_sigma(key.name, run.settings)};
+    const SetupValue* value = stated || guess.sigma <= 0 ? stated : &guess;
     if (!value || value->sigma <= 0 || !used(key, run.recording->setup.law)) continue;
     const bool channel =
         std::string_view(key.name) == "supply_voltage" && run.recording->has("supply_voltage");
     if (channel) continue;
     // The same key with the same numbers is the same thing; an override is this recording's own.
     const SetupValue* shared = run.data_set->setup.find(key.name);
-    const bool own = !shared || shared->value != value->value || shared->sigma != value->sigma;
+    const bool own =
+        stated && (!shared || shared->value != value->value || shared->sigma != value->sigma);
     const std::string name = own ? std::string(key.name) + "@" + run.recording->name : key.name;
     int index = 0;
     while (index < static_cast<int>(doubtful_.size()) && doubtful_[index].name != name) ++index;

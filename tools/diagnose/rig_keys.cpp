@@ -131,9 +131,8 @@ DriveLaw law_of(const std::string& name) {
 Lack find_missing_setup(RigKind rig, const Setup& setup, const std::vector<std::string>& channels) {
   if (rig == RigKind::kServoPendulum) {
     if (setup.law == DriveLaw::kNone) return {"law", "must be " + one_of(law_names())};
-    const Lack lack = first_missing(
-        setup, {"payload_mass", "payload_length", "arm_mass", "armature", "coulomb", "viscous"},
-        "needed for rig = \"servo_pendulum\"");
+    const Lack lack = first_missing(setup, {"payload_mass", "payload_length"},
+                                    "needed for rig = \"servo_pendulum\"");
     return lack.name.empty() ? missing_of_law(setup, channels) : lack;
   }
   if (rig != RigKind::kPlateSand) return {};

@@ -116,6 +116,21 @@ TEST_CASE("diagnose: one effect is named, with its parameters, and held-out data
   CHECK(verdict.after.holdout.at("torque_rmse") == Approx(kTorqueNoise_Nm).epsilon(0.1));
 }
 
+TEST_CASE("diagnose: friction that nobody stated is found, and is no missing physics") {
+  DataSet set = made({}, 1.1, 14);
+  for (Recording& recording : set.recordings) recording.setup.values.erase("coulomb");
+  set.setup.values.erase("coulomb");
+  const Verdict verdict = diagnose({set}, {});
+  CHECK(verdict.verdict == "none");
+  bool found = false;
+  for (const SetupEstimate& estimate : verdict.setup) {
+    if (estimate.name != "coulomb") continue;
+    found = true;
+    CHECK(estimate.before == Approx(0.06).epsilon(0.1));
+  }
+  CHECK(found);
+}
+
 TEST_CASE("diagnose: any number of threads gives the same bytes") {
   const DataSet set = made({effect("stribeck_friction", {0.05, 0.3})}, 0.85, 13);
   DiagnoseOptions one, three;

@@ -94,8 +94,8 @@ TEST_CASE("Malformed data sets: setup") {
       kPendulumToml,
       {{"armature", "armatur",
         "set.toml:11:1: setup.armatur = 0.002: unknown key, did you mean armature?"},
-       {"armature = 0.002\n", "",
-        "set.toml:23:1: recording: a.csv: setup.armature: missing; needed for rig = "
+       {"payload_mass = 0.5\n", "",
+        "set.toml:23:1: recording: a.csv: setup.payload_mass: missing; needed for rig = "
         "\"servo_pendulum\""},
        {"law = \"duty\"\n", "",
         "set.toml:23:1: recording: a.csv: setup.law: missing; must be duty, impedance or torque"},
