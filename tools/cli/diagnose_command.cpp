@@ -88,7 +88,10 @@ void add_diagnose_command(CLI::App& app, Invocation& invocation) {
       ->required()
       ->type_name("DATASET.toml");
   command->add_option("--out", request->out, "Folder for the answer")->required()->type_name("DIR");
-  command->add_option("--seed", request->seed, "Of the search")
+  command
+      ->add_option(
+          "--seed", request->seed,
+          "Accepted for scripts; the search draws nothing, any seed gives the same verdict")
       ->type_name("N")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();

@@ -12,6 +12,7 @@
 namespace hoof::tools {
 
 struct DiagnoseOptions {
+  /// Part of the contract's command. The search draws nothing: any seed gives the same verdict.
   std::uint64_t seed = 1;
   int threads = 2;
   /// Called from the thread that called diagnose(), with the share of the work that is done and

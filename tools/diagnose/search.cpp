@@ -280,9 +280,10 @@ class Search {
     follow(pairs, 0.5, 0.75, "pairs");
   }
 
-  /// Effects of a pair in the catalogue's order, so that both ways round are one hypothesis.
+  /// Effects of a pair in the order of their names, as in the catalogue, so that both ways round
+  /// are one hypothesis; not of their addresses, which differ from run to run.
   void put_in_order(Candidate& pair) const {
-    if (pair.effects[0] < pair.effects[1]) return;
+    if (pair.effects[0]->name < pair.effects[1]->name) return;
     const auto first = static_cast<Eigen::Index>(pair.effects[0]->parameters.size());
     const auto second = static_cast<Eigen::Index>(pair.effects[1]->parameters.size());
     const Eigen::Index setup = pair.x.size() - first - second;

@@ -1,6 +1,8 @@
 // The tool before its examiner, in small: plants drawn, diagnosed by the program and graded. Six
 // cases are too few for shares: this holds that the whole way works and every case is answered.
 // Shares are the README's, from a batch that takes longer.
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 #include <filesystem>
 
@@ -10,7 +12,8 @@ using namespace hoof::tests;
 namespace fs = std::filesystem;
 
 TEST_CASE("a small blind batch is drawn, answered and graded") {
-  const fs::path root = fs::temp_directory_path() / "hoof-blind-batch";
+  const fs::path root =
+      fs::temp_directory_path() / ("hoof-blind-batch-" + std::to_string(getpid()));
   fs::remove_all(root);
   fs::create_directories(root);
   const std::string program = HOOF_PROGRAM, batch = (root / "batch").string(),
