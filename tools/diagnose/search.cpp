@@ -16,6 +16,8 @@ constexpr double kLeastVariance = 0.8;
 constexpr double kMostScale = 30;
 /// Of its start's size, where an effect does nothing to speak of.
 constexpr double kAlmostNothing = 1e-4;
+/// Starts of one hypothesis that gain this share less than its best after a rough fit are left.
+constexpr double kBehind = 0.05;
 /// Residuals count for no less than one in this many.
 constexpr double kLeastEffective = 1.0 / 200;
 
@@ -25,6 +27,7 @@ struct Candidate {
   double gain = 0;  // by which half the sum of squares would fall, linearly
   int size_coordinate = -1;
   bool by_log = false;
+  bool sized = false;  // x is fitted roughly already
 };
 
 /// Residuals of a fit and a basis of what its own parameters can do.
@@ -50,6 +53,11 @@ Tangent tangent(const Fitter& fitter, const Fit& fit, const Fitter::Weights& wei
 Eigen::VectorXd perpendicular(const Tangent& tangent, const Eigen::VectorXd& r) {
   if (tangent.basis.cols() == 0) return r;
   return r - tangent.basis * (tangent.basis.transpose() * r);
+}
+
+bool listed(const Effects& effects) {
+  return std::all_of(effects.begin(), effects.end(),
+                     [](const sim::EffectInfo* e) { return e->listed; });
 }
 
 Effects with(const Effects& effects, const sim::EffectInfo* one) {
@@ -115,6 +123,7 @@ class Search {
     polish_best();
     take_noise_of_best();
     fit_contenders();
+    look_at_rest();
     say(1, "done");
     return std::move(result_);
   }
@@ -213,7 +222,7 @@ class Search {
     Fit fit;
     fit.effects = candidate.effects;
     fit.x = candidate.x;
-    if (candidate.size_coordinate < 0) return fit;
+    if (candidate.size_coordinate < 0 || candidate.sized) return fit;
     const auto weights = fitter_.roomy_weights(result_.fits[0].squares, 0.5);
     double least = 1e300;
     for (const double scale : {1.0, 0.4, 0.15, 0.05, 0.01, 1e-3}) {
@@ -227,7 +236,10 @@ class Search {
   }
 
   std::vector<Candidate> look_beside(const Fit& base, int starts) {
-    const auto weights = fitter_.roomy_weights(base.squares, 0.3);
+    return look_beside(base, starts, fitter_.roomy_weights(base.squares, 0.3));
+  }
+
+  std::vector<Candidate> look_beside(const Fit& base, int starts, const Fitter::Weights& weights) {
     const Tangent t = tangent(fitter_, base, weights);
     const auto& effects = fitter_.model().effects();
     std::vector<std::vector<Candidate>> found(effects.size());
@@ -255,7 +267,37 @@ class Search {
                        [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
       singles.resize(options_.singles);
     }
-    follow(singles, 0.1, 0.45, "one effect");
+    follow(most_promising(singles, options_.follow_singles), 0.1, 0.45, "one effect");
+  }
+
+  /// After a rough fit of each: of several starts of one hypothesis those that are not behind its
+  /// best, and no more hypotheses than `most`.
+  std::vector<Candidate> most_promising(std::vector<Candidate> candidates, int most) {
+    if (options_.rough_iterations <= 0) return candidates;
+    const auto weights = fitter_.roomy_weights(result_.fits[0].squares, 0.5);
+    const double nominal = fitter_.objective({}, result_.fits[0].x, weights);
+    for_each_task(static_cast<int>(candidates.size()), options_.threads, [&](int i) {
+      Candidate& c = candidates[i];
+      const Fit fit =
+          fitter_.fit(c.effects, best_size(c).x, options_.rough_iterations, weights, 1e-3);
+      c.x = fit.x;
+      c.gain = nominal - fit.objective;
+      c.sized = true;
+    });
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
+    std::vector<Candidate> ahead;
+    int hypotheses = 0;
+    for (Candidate& c : candidates) {
+      const auto best = std::find_if(ahead.begin(), ahead.end(), [&c](const Candidate& other) {
+        return other.effects == c.effects;
+      });
+      const bool first = best == ahead.end();
+      if (first ? hypotheses >= most : c.gain < (1 - kBehind) * best->gain) continue;
+      hypotheses += first ? 1 : 0;
+      ahead.push_back(std::move(c));
+    }
+    return ahead;
   }
 
   void fit_pairs() {
@@ -277,6 +319,7 @@ class Search {
     // The same pair from both sides is worth two starts, not more.
     if (static_cast<int>(pairs.size()) > options_.pair_fits) pairs.resize(options_.pair_fits);
     for (Candidate& pair : pairs) put_in_order(pair);
+    pairs = most_promising(std::move(pairs), options_.follow_pairs);
     follow(pairs, 0.5, 0.75, "pairs");
   }
 
@@ -349,6 +392,28 @@ class Search {
     for (Fit& fit : others) result_.fits.push_back(std::move(fit));
   }
 
+  /// What one effect more would take from what the best leave.
+  void look_at_rest() {
+    say(0.98, "what is left");
+    std::vector<Fit*> best;
+    for (Fit& fit : result_.fits) {
+      if (listed(fit.effects)) best.push_back(&fit);
+    }
+    std::stable_sort(best.begin() + 1, best.end(),
+                     [](const Fit* a, const Fit* b) { return a->log_evidence > b->log_evidence; });
+    if (static_cast<int>(best.size()) > options_.looked_at) best.resize(options_.looked_at);
+    for (Fit* fit : best) {
+      fit->more_listed = fit->more_unlisted = 0;
+      for (const Candidate& c : look_beside(*fit, 1, fitter_.weights())) {
+        double& most = c.effects.back()->listed ? fit->more_listed : fit->more_unlisted;
+        if (c.gain > most) {
+          most = c.gain;
+          (c.effects.back()->listed ? fit->next_listed : fit->next_unlisted) = c.effects.back();
+        }
+      }
+    }
+  }
+
   Fitter& fitter_;
   const SearchOptions& options_;
   SearchResult result_;
@@ -418,6 +483,8 @@ SearchOptions frugal_search() {
   options.pair_bases = 2;
   options.contenders = 8;
   options.polish_steps = 50;
+  options.rough_iterations = 0;
+  options.looked_at = 0;
   return options;
 }
 

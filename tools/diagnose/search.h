@@ -13,11 +13,14 @@ struct SearchOptions {
   int threads = 1;
   /// Share done and what is being done; false: stop.
   std::function<bool(double, const std::string&)> progress;
-  int fits_of_single = 3;  // starts of each effect that are followed to the end
-  int pair_fits = 20;      // pairs that are fitted
+  int fits_of_single = 3;    // starts of each effect that are followed to the end
+  int rough_iterations = 3;  // of each start, to choose those that are followed; 0: all are
+  int follow_singles = 16, follow_pairs = 10;  // hypotheses that are followed to the end
+  int pair_fits = 20;                          // pairs that are fitted
   int iterations = 10;
   int singles = 1000;   // effects that are fitted alone, those that a first look promises most of
   int pair_bases = 4;   // single effects that others are tried beside
+  int looked_at = 4;    // of which it is asked what one effect more would gain
   int contenders = 16;  // fitted anew with the noise as the best of them leaves it
   /// Steps of a search without slopes after each fit of a contender: where events in a rollout,
   /// such as an end stop that is met a tick later, make its squares ragged. 0: none.
