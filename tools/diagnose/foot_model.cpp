@@ -126,6 +126,22 @@ double FootModel::stated_noise(int, const std::string& channel) const {
 Prediction FootModel::predict(int index, std::span<const double> setup,
                               std::span<const ActiveEffect> effects, Rollout) const {
   const Run& run = runs_[index];
+  const auto& known = effects_.list();
+  PredictionKey key;
+  key.add(index);
+  for (const double value : setup) key.add(value);
+  for (const ActiveEffect& effect : effects) {
+    const auto at = std::find(known.begin(), known.end(), effect.info);
+    // One that a file names, at a joint that only it knows.
+    if (at == known.end()) return replay(run, setup, effects);
+    key.add(static_cast<int>(at - known.begin()));
+    for (const double value : effect.values) key.add(value);
+  }
+  return cache_.get(key, [&] { return replay(run, setup, effects); });
+}
+
+Prediction FootModel::replay(const Run& run, std::span<const double> setup,
+                             std::span<const ActiveEffect> effects) const {
   RunSettings settings = run.session.run;
   for (const auto& [key, doubt] : run.doubts) *find_setup_number(settings, key) = setup[doubt];
   for (const ActiveEffect& effect : effects) {

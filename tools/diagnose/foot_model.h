@@ -12,6 +12,7 @@
 
 #include "tools/diagnose/foot_effects.h"
 #include "tools/diagnose/foot_session.h"
+#include "tools/diagnose/prediction_cache.h"
 #include "tools/diagnose/rig_model.h"
 
 namespace hoof::tools {
@@ -54,10 +55,13 @@ class FootModel final : public RigModel {
   void add_doubt(Run& run, const std::string& key, const std::string& name, double value,
                  double sigma);
   void choose_effects();
+  Prediction replay(const Run& run, std::span<const double> setup,
+                    std::span<const ActiveEffect> effects) const;
 
   std::vector<Run> runs_;
   std::vector<DoubtfulValue> doubtful_;
   FootEffects effects_;
+  mutable PredictionCache cache_;
 };
 
 }  // namespace hoof::tools
