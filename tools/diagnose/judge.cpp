@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/diagnose/candidates.h"
+
 namespace hoof::tools {
 namespace {
 
@@ -26,11 +28,6 @@ constexpr double kDoubt = 0.12;
 
 /// A held-out channel of one recording decides no more than this, in log likelihood.
 constexpr double kMostOfOneGroup = 15;
-
-bool listed(const Fit& fit) {
-  return std::all_of(fit.effects.begin(), fit.effects.end(),
-                     [](const sim::EffectInfo* e) { return e->listed; });
-}
 
 /// Held-out recordings, each channel by the logarithm of what is left above the noise as the best
 /// model leaves it: a rollout that went another way says that much, and no more.
@@ -118,7 +115,7 @@ double removed(const Fitter& fitter, const Fit& fit, const Fit& none) {
 
 double log_prior(const Fit& fit, double singles, double pairs, double stand_ins) {
   if (fit.effects.empty()) return std::log(kNone);
-  if (!listed(fit)) return std::log(kUnknown / std::max(stand_ins, 1.0));
+  if (!listed(fit.effects)) return std::log(kUnknown / std::max(stand_ins, 1.0));
   return fit.effects.size() == 1 ? std::log(kSingle / singles) : std::log(kPair / pairs);
 }
 
@@ -160,9 +157,12 @@ Judgement judge(const Fitter& fitter, const SearchResult& result) {
   double top = -1e300;
   std::vector<double> score;
   for (const Fit& fit : result.fits) {
-    Standing s{
-        &fit, listed(fit), fit.log_evidence - none.log_evidence, holdout_gain(fitter, fit, none), 0,
-        0};
+    Standing s{&fit,
+               listed(fit.effects),
+               fit.log_evidence - none.log_evidence,
+               holdout_gain(fitter, fit, none),
+               0,
+               0};
     const Gains g = gains(fitter, fit, none);
     s.explained = g.possible > 0 ? g.made / g.possible : 1;
     s.removed = removed(fitter, fit, none);

@@ -19,7 +19,6 @@ using sim::PendulumSettings;
 /// loop closes at a few Hz, so that a hundred steps go into a radian of its phase.
 constexpr double kFreeStep_s = 2e-3;
 constexpr double kLongestStep_s = 2.5e-3;
-constexpr double kStartSpan_s = 0.02;  // of the contract
 
 /// Doubt of when inputs act: of a control period, and of the time between samples.
 constexpr double kPeriodShare = 0.2;
@@ -59,8 +58,11 @@ std::span<const double> channel(const Recording& recording, const std::string& n
   return found->second;
 }
 
+/// Whether a key changes what is predicted. The torque constant does under every law but the
+/// recorded torque's: it makes the current of a commanded torque.
 bool used(const PendulumKey& key, DriveLaw law) {
   if (std::string_view(key.name) == "supply_voltage") return law == DriveLaw::kDuty;
+  if (std::string_view(key.name) == "kt") return law != DriveLaw::kTorque;
   const bool of_a_law = key.duty || key.impedance;
   return !of_a_law || (key.duty && law == DriveLaw::kDuty) ||
          (key.impedance && law == DriveLaw::kImpedance);
@@ -166,7 +168,7 @@ void PendulumModel::add(const DataSet& data_set, const Recording& recording) {
     if (recording.has(name) && !is_input(name, law)) run.channels.push_back(name);
   }
   // Current of a recording driven by torque is that torque over kt: nothing to predict.
-  if (law == DriveLaw::kTorque) std::erase(run.channels, "current");
+  if (law == DriveLaw::kTorque || run.settings.kt_Nm_A <= 0) std::erase(run.channels, "current");
   run.longest_step_s = run.settings.control_period_s > 0 ? kLongestStep_s : kFreeStep_s;
   add_doubts(run);
   estimate_start(run);
@@ -183,7 +185,9 @@ void PendulumModel::add_doubts(Run& run) {
     if (!value || value->sigma <= 0 || !used(key, run.recording->setup.law)) continue;
     const bool channel =
         std::string_view(key.name) == "supply_voltage" && run.recording->has("supply_voltage");
-    if (channel) continue;
+    const bool unseen = std::string_view(key.name) == "kt" &&
+                        run.settings.law == PendulumLaw::kImpedance && !run.predicts("current");
+    if (channel || unseen) continue;
     // The same key with the same numbers is the same thing; an override is this recording's own.
     const SetupValue* shared = run.data_set->setup.find(key.name);
     const bool own =
@@ -224,18 +228,6 @@ PendulumSettings PendulumModel::settings(const Run& run, std::span<const double>
   if (run.timing >= 0) settings.input_late_s = setup[run.timing];
   settings.resistance_ohm = std::max(settings.resistance_ohm, 1e-6);
   return settings;
-}
-
-void PendulumModel::estimate_start(Run& run) const {
-  const Recording& recording = *run.recording;
-  const auto position = channel(recording, "position");
-  const auto velocity = channel(recording, "velocity");
-  const auto first =
-      std::find_if(position.begin(), position.end(), [](double v) { return std::isfinite(v); });
-  run.start.position_rad = first == position.end() ? 0 : *first;
-  const bool measured = !velocity.empty() && std::isfinite(velocity.front());
-  run.start.velocity_rad_s =
-      measured ? velocity.front() : first_slope(recording.time_s, position, kStartSpan_s);
 }
 
 /// Stationary Kalman gain for noise in the torque that drives an open loop. A closed loop needs
@@ -330,8 +322,10 @@ void PendulumModel::measure_effort() {
   torque_rms_Nm_ = count > 0 ? std::sqrt(sum / count) : 0;
   for (Run& run : runs_) {
     const double kt = run.settings.kt_Nm_A;
-    run.start.torque_rms_Nm = torque_rms_Nm_;
-    run.start.current_rms_A = kt > 0 ? torque_rms_Nm_ / kt : 0;
+    for (sim::PendulumStart* start : {&run.start, &run.fitted_start}) {
+      start->torque_rms_Nm = torque_rms_Nm_;
+      start->current_rms_A = kt > 0 ? torque_rms_Nm_ / kt : 0;
+    }
   }
 }
 
@@ -426,7 +420,7 @@ std::vector<double> PendulumModel::strength(int index, std::span<const double> s
                                             std::span<const ActiveEffect> effects) const {
   const Run& run = runs_[index];
   sim::PendulumTrace trace;
-  simulate(run, setup, effects, run.correction, trace);
+  simulate(run, setup, effects, Rollout::kCorrected, trace);
   for (const double v : trace.effect_Nm) {
     if (v > 0) return trace.effect_Nm;
   }
@@ -441,8 +435,7 @@ double PendulumModel::unit_of(const sim::EffectParameter& parameter) const {
 }
 
 void PendulumModel::simulate(const Run& run, std::span<const double> setup,
-                             std::span<const ActiveEffect> active,
-                             const sim::PendulumCorrection& correction,
+                             std::span<const ActiveEffect> active, Rollout rollout,
                              sim::PendulumTrace& trace) const {
   std::vector<std::unique_ptr<JointEffect>> owned;
   std::vector<JointEffect*> effects;
@@ -456,17 +449,16 @@ void PendulumModel::simulate(const Run& run, std::span<const double> setup,
     owned.push_back(effect.info->make_joint(effect.values));
     effects.push_back(owned.back().get());
   }
-  simulate_pendulum(settings(run, setup), inputs, effects, run.start, correction,
-                    run.longest_step_s, trace);
+  const bool fitted = rollout == Rollout::kCorrected;
+  simulate_pendulum(settings(run, setup), inputs, effects, fitted ? run.fitted_start : run.start,
+                    fitted ? run.correction : sim::PendulumCorrection{}, run.longest_step_s, trace);
 }
 
 Prediction PendulumModel::predict(int index, std::span<const double> setup,
                                   std::span<const ActiveEffect> active, Rollout rollout) const {
   const Run& run = runs_[index];
-  const auto correction =
-      rollout == Rollout::kCorrected ? run.correction : sim::PendulumCorrection{};
   sim::PendulumTrace trace;
-  simulate(run, setup, active, correction, trace);
+  simulate(run, setup, active, rollout, trace);
   Prediction prediction;
   for (const std::string& name : run.channels) {
     prediction.push_back(name == "position"   ? std::move(trace.position_rad)

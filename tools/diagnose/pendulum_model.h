@@ -1,6 +1,7 @@
 // The servo pendulum as the search sees it.
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <vector>
@@ -39,8 +40,9 @@ class PendulumModel final : public RigModel {
     const DataSet* data_set = nullptr;
     const Recording* recording = nullptr;
     sim::PendulumInputs inputs;
-    sim::PendulumSettings settings;  // as stated
-    sim::PendulumStart start;
+    sim::PendulumSettings settings;   // as stated
+    sim::PendulumStart start;         // as measured at the first sample
+    sim::PendulumStart fitted_start;  // of what is fitted: better where it begins at rest
     sim::PendulumCorrection correction;
     double wander_rad = 0, wander_rad_s = 0;  // 1-sigma of the corrected state before a sample
     std::vector<std::string> channels;
@@ -48,6 +50,10 @@ class PendulumModel final : public RigModel {
     int timing = -1;  // in doubtful_
     GoalLosses losses;
     std::map<std::string, int> doubts;  // key of the setup to index in doubtful_
+
+    bool predicts(const std::string& name) const {
+      return std::find(channels.begin(), channels.end(), name) != channels.end();
+    }
   };
 
   static double stated_noise(const DataSet& data_set, const std::string& channel);
@@ -57,10 +63,11 @@ class PendulumModel final : public RigModel {
   void choose_effects();
   sim::PendulumSettings settings(const Run& run, std::span<const double> setup) const;
   void estimate_start(Run& run) const;
+  void start_at_rest(Run& run) const;
   void choose_correction(Run& run) const;
   void look_for_losses(Run& run) const;
   void simulate(const Run& run, std::span<const double> setup, std::span<const ActiveEffect> active,
-                const sim::PendulumCorrection& correction, sim::PendulumTrace& trace) const;
+                Rollout rollout, sim::PendulumTrace& trace) const;
   void measure_effort();
 
   std::vector<DataSet> data_sets_;

@@ -1,116 +1,23 @@
 #include "tools/diagnose/search.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <numbers>
 #include <thread>
+
+#include "tools/diagnose/candidates.h"
 
 namespace hoof::tools {
 namespace {
 
 /// Nothing is believed to be better than this share of the sensor's noise.
 constexpr double kLeastVariance = 0.8;
-/// A start is scaled to the size the recordings ask for, by no more than this.
-constexpr double kMostScale = 30;
 /// Of its start's size, where an effect does nothing to speak of.
 constexpr double kAlmostNothing = 1e-4;
 /// Starts of one hypothesis that gain this share less than its best after a rough fit are left.
 constexpr double kBehind = 0.05;
 /// Residuals count for no less than one in this many.
 constexpr double kLeastEffective = 1.0 / 200;
-
-struct Candidate {
-  Effects effects;
-  Eigen::VectorXd x;
-  double gain = 0;  // by which half the sum of squares would fall, linearly
-  int size_coordinate = -1;
-  bool by_log = false;
-  bool sized = false;  // x is fitted roughly already
-};
-
-/// Residuals of a fit and a basis of what its own parameters can do.
-struct Tangent {
-  Eigen::VectorXd r;
-  Eigen::MatrixXd basis;
-};
-
-Tangent tangent(const Fitter& fitter, const Fit& fit, const Fitter::Weights& weights) {
-  const Layout layout(fitter.model(), fit.effects);
-  Tangent t;
-  const Eigen::VectorXd r = fitter.residuals(layout, fit.x, weights);
-  const Eigen::Index samples = r.size() - layout.size();
-  const Eigen::MatrixXd J = fitter.jacobian(layout, fit.x, r, weights).topRows(samples);
-  t.r = r.head(samples);
-  if (layout.size() > 0) {
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(J);
-    t.basis = qr.householderQ() * Eigen::MatrixXd::Identity(samples, J.cols());
-  }
-  return t;
-}
-
-Eigen::VectorXd perpendicular(const Tangent& tangent, const Eigen::VectorXd& r) {
-  if (tangent.basis.cols() == 0) return r;
-  return r - tangent.basis * (tangent.basis.transpose() * r);
-}
-
-bool listed(const Effects& effects) {
-  return std::all_of(effects.begin(), effects.end(),
-                     [](const sim::EffectInfo* e) { return e->listed; });
-}
-
-Effects with(const Effects& effects, const sim::EffectInfo* one) {
-  Effects sum = effects;
-  sum.push_back(one);
-  return sum;
-}
-
-/// Starts of `effect` beside a fit, each at the size that a linear step asks for, best first.
-std::vector<Candidate> starts_beside(const Fitter& fitter, const Fit& base, const Tangent& tangent,
-                                     const sim::EffectInfo* effect,
-                                     const Fitter::Weights& weights) {
-  const Layout alone(fitter.model(), {effect});
-  const Layout both(fitter.model(), with(base.effects, effect));
-  std::vector<Candidate> candidates;
-  for (const Layout::Start& start : alone.starts(base.x)) {
-    const int setup = alone.setup_count();
-    const auto own = alone.size() - setup;
-    Eigen::VectorXd x(both.size());
-    x << base.x, start.x.tail(own);
-    const int shift = both.size() - alone.size();
-    const Eigen::VectorXd r = fitter.residuals(both, x, weights).head(tangent.r.size());
-    const Eigen::VectorXd change = perpendicular(tangent, r - tangent.r);
-    const double square = change.squaredNorm();
-    if (!(square > 1e-12)) continue;
-    double scale = -tangent.r.dot(change) / square;
-    const int size = start.size_coordinate, phase = start.phase_coordinate;
-    if (scale < 0 && phase >= 0) {
-      x[phase + shift] += std::numbers::pi;
-      scale = -scale;
-    }
-    double gain = 0.5 * scale * scale * square;
-    bool by_log = false;
-    if (size >= 0) {
-      by_log = alone.of_effect(size - setup).parameter->logarithmic;
-      if (by_log && scale <= 0) continue;
-      const double limited = std::clamp(scale, by_log ? 1 / kMostScale : -kMostScale, kMostScale);
-      if (by_log) {
-        x[size + shift] += std::log(limited);
-      } else {
-        x[size + shift] *= limited;
-      }
-    } else {
-      // No size to scale: what the start itself gains, the base's own parameters refitted linearly.
-      gain = 0.5 * (perpendicular(tangent, tangent.r).squaredNorm() -
-                    perpendicular(tangent, r).squaredNorm());
-    }
-    candidates.push_back({both.effects(), x, gain, size >= 0 ? size + shift : -1, by_log});
-  }
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
-  return candidates;
-}
 
 class Search {
  public:

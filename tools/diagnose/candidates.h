@@ -1,0 +1,36 @@
+// Where a search for an effect begins: every start of it scored by what it would gain.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "tools/diagnose/fitter.h"
+
+namespace hoof::tools {
+
+struct Candidate {
+  Effects effects;
+  Eigen::VectorXd x;
+  double gain = 0;  // by which half the sum of squares would fall, linearly
+  int size_coordinate = -1;
+  bool by_log = false;
+  bool sized = false;  // x is fitted roughly already
+};
+
+/// Residuals of a fit and a basis of what its own parameters can do.
+struct Tangent {
+  Eigen::VectorXd r;
+  Eigen::MatrixXd basis;
+};
+
+Tangent tangent(const Fitter& fitter, const Fit& fit, const Fitter::Weights& weights);
+
+/// Starts of `effect` beside a fit, each at the size that a linear step asks for, best first.
+std::vector<Candidate> starts_beside(const Fitter& fitter, const Fit& base, const Tangent& tangent,
+                                     const sim::EffectInfo* effect,
+                                     const Fitter::Weights& weights);
+
+/// No stand-in for physics outside the list among them.
+bool listed(const Effects& effects);
+
+}  // namespace hoof::tools

@@ -1,0 +1,118 @@
+// Where a rollout begins: as measured, and better where the recording begins at rest.
+#include <algorithm>
+#include <cmath>
+
+#include "tools/diagnose/noise.h"
+#include "tools/diagnose/pendulum_model.h"
+
+namespace hoof::tools {
+namespace {
+
+using sim::PendulumLaw;
+
+constexpr double kStartSpan_s = 0.02;  // of the contract
+/// At rest is what stays within this many standard deviations of its mean.
+constexpr double kStill = 4;
+constexpr std::size_t kFewest = 5;
+/// A torque at its limit tells nothing of the angle.
+constexpr double kFree = 0.95;
+
+std::span<const double> channel(const Recording& recording, const std::string& name) {
+  const auto found = recording.channels.find(name);
+  if (found == recording.channels.end()) return {};
+  return found->second;
+}
+
+/// Mean of values with one known deviation, as it grows.
+struct Mean {
+  double sum = 0, count = 0;
+  void add(double v) { sum += v, count += 1; }
+  double value() const { return sum / count; }
+};
+
+/// Number of leading samples of a noisy constant.
+std::size_t still_samples(std::span<const double> values, double noise) {
+  Mean all;
+  std::size_t n = 0;
+  for (; n < values.size(); ++n) {
+    if (!std::isfinite(values[n])) continue;
+    if (all.count > 0) {
+      const double doubt = noise * std::sqrt(1 + 1 / all.count);
+      // A slow creep shows in the mean of the last few before it shows in one.
+      Mean last;
+      for (std::size_t i = n + 1 > kFewest ? n + 1 - kFewest : 0; i <= n; ++i) {
+        if (std::isfinite(values[i])) last.add(values[i]);
+      }
+      const double far = noise * std::sqrt(1 / last.count + 1 / all.count);
+      if (std::abs(values[n] - all.value()) > kStill * doubt) break;
+      if (all.count > 2 * kFewest && std::abs(last.value() - all.value()) > kStill * far) break;
+    }
+    all.add(values[n]);
+  }
+  return n > kFewest ? n - kFewest : 0;
+}
+
+}  // namespace
+
+void PendulumModel::estimate_start(Run& run) const {
+  const Recording& recording = *run.recording;
+  const auto position = channel(recording, "position");
+  const auto velocity = channel(recording, "velocity");
+  const auto first =
+      std::find_if(position.begin(), position.end(), [](double v) { return std::isfinite(v); });
+  run.start.position_rad = first == position.end() ? 0 : *first;
+  const bool measured = !velocity.empty() && std::isfinite(velocity.front());
+  run.start.velocity_rad_s =
+      measured ? velocity.front() : first_slope(recording.time_s, position, kStartSpan_s);
+  run.fitted_start = run.start;
+  start_at_rest(run);
+}
+
+/// A joint that sticks keeps the angle it begins at: an error of one sample's noise there is an
+/// offset of the torque of a stiff drive for as long. The mean over the time at rest, and what the
+/// torque tells of the same angle, have less of it.
+void PendulumModel::start_at_rest(Run& run) const {
+  const Recording& recording = *run.recording;
+  const auto position = channel(recording, "position");
+  double noise = stated_noise(*run.data_set, "position");
+  noise = std::max(noise, estimate_noise(recording.time_s, position));
+  const std::size_t n = noise > 0 ? still_samples(position, noise) : 0;
+  if (n < kFewest) return;
+  Mean angle;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (std::isfinite(position[i])) angle.add(position[i]);
+  }
+  if (angle.count < kFewest) return;
+  run.fitted_start = run.start;
+  run.fitted_start.velocity_rad_s = 0;
+  run.fitted_start.position_rad = angle.value();
+  const auto torque = channel(recording, "torque");
+  const auto goal = channel(recording, "position_goal");
+  const sim::PendulumSettings& s = run.settings;
+  const bool exact = run.doubts.count("kp") == 0 && run.doubts.count("kd") == 0;
+  if (s.law != PendulumLaw::kImpedance || torque.empty() || !exact || s.kp_Nm_rad <= 0) return;
+  const auto velocity_goal = channel(recording, "velocity_goal");
+  const auto feed_forward = channel(recording, "torque_ff");
+  const auto enable = channel(recording, "enable");
+  Mean by_torque;
+  for (std::size_t i = 0; i < n; ++i) {
+    const bool off = !enable.empty() && enable[i] < 0.5;
+    if (!std::isfinite(torque[i]) || off) continue;
+    if (std::abs(torque[i]) > kFree * s.torque_limit_Nm) continue;
+    const double wanted = (velocity_goal.empty() ? 0 : s.kd_Nm_s_rad * velocity_goal[i]) +
+                          (feed_forward.empty() ? 0 : feed_forward[i]);
+    by_torque.add(goal[i] - (torque[i] - wanted) / s.kp_Nm_rad);
+  }
+  if (by_torque.count < kFewest) return;
+  const double torque_noise =
+      std::max(stated_noise(*run.data_set, "torque"), estimate_noise(recording.time_s, torque));
+  const double a = noise * noise / angle.count;
+  const double b = std::pow(torque_noise / s.kp_Nm_rad, 2) / by_torque.count;
+  // An encoder may be off by more than its noise; then the angle it reads is what the drive sees.
+  if (std::abs(by_torque.value() - angle.value()) > kStill * std::sqrt(a + b)) return;
+  if (a + b > 0) {
+    run.fitted_start.position_rad = (b * angle.value() + a * by_torque.value()) / (a + b);
+  }
+}
+
+}  // namespace hoof::tools
