@@ -4,6 +4,7 @@
 #include "tools/cli/commands.h"
 #include "tools/cli/fault_matrix.h"
 #include "tools/study/drop_law.h"
+#include "tools/study/foot_proof.h"
 #include "tools/study/study.h"
 
 namespace hoof::tools {
@@ -79,6 +80,35 @@ void add_drop_law(CLI::App& parent, Invocation& invocation) {
   command->callback([&invocation, out] { invocation.run = [out] { run_drop_law_study(*out); }; });
 }
 
+void add_foot_proof(CLI::App& parent, Invocation& invocation) {
+  auto options = std::make_shared<FootProofOptions>();
+  CLI::App* command = parent.add_subcommand(
+      "foot-proof", "Physics concealed in the foot's plant, found by its bus alone: with ablation");
+  command->add_flag("--full", options->full, "All six effects, and two plants that lack nothing");
+  command->add_option("--only", options->only, "Only these cases, e.g. toe-play,hip-friction")
+      ->type_name("NAME,...")
+      ->delimiter(',');
+  command->add_option("--out", options->out, "Folder of sessions, answers and the table")
+      ->type_name("DIR")
+      ->capture_default_str();
+  command->add_option("--threads", options->threads, "1..1024; the answers are the same for any")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  command->add_flag("--force", options->force, "Replace an earlier proof in DIR");
+  command->add_flag("--quiet", options->quiet, "Show no progress");
+  command->footer(
+      "Each session is recorded over the bus from a plant whose effect is concealed, answered by\n"
+      "hoof diagnose, and run once more with improved.toml. On fast soil. Writes proof.json and\n"
+      "proof.csv; exit status 1 where an answer is not what was concealed.\n"
+      "Examples:\n"
+      "  hoof study foot-proof\n"
+      "  hoof study foot-proof --full --out runs/foot-proof\n"
+      "  hoof study foot-proof --only hip-friction --force");
+  command->callback(
+      [&invocation, options] { invocation.run = [options] { run_foot_proof_study(*options); }; });
+}
+
 }  // namespace
 
 void add_study_command(CLI::App& app, Invocation& invocation) {
@@ -92,7 +122,8 @@ void add_study_command(CLI::App& app, Invocation& invocation) {
       "  hoof study box --bodies foot --beds 3\n"
       "  hoof study time-step --scales 1\n"
       "  hoof study faults                           every fault in every mode, a minute\n"
-      "  hoof study drop-law                         the paper's drop test, at once");
+      "  hoof study drop-law                         the paper's drop test, at once\n"
+      "  hoof study foot-proof                       concealed physics of the foot, a minute");
   add_study(*command, invocation, "resolution",
             "Spined against plain, open against closed: effect over the scatter of beds",
             run_resolution_study);
@@ -105,6 +136,7 @@ void add_study_command(CLI::App& app, Invocation& invocation) {
             run_box_study);
   add_fault_matrix(*command, invocation);
   add_drop_law(*command, invocation);
+  add_foot_proof(*command, invocation);
 }
 
 }  // namespace hoof::tools

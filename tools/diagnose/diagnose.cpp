@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/diagnose/costly_search.h"
 #include "tools/diagnose/evidence_text.h"
 #include "tools/diagnose/foot_effects.h"
 #include "tools/diagnose/judge.h"
@@ -31,15 +32,7 @@ class Diagnosis {
       : model_(model), options_(options), fitter_(model) {}
 
   Verdict run() {
-    SearchOptions search_options = model_.costly() ? frugal_search() : SearchOptions();
-    search_options.threads = options_.threads;
-    search_options.progress = options_.progress;
-    if (model_.quick()) {
-      // All starts are followed, and long valleys (k_phi against n) to their end.
-      search_options.iterations = 60;
-      search_options.fits_of_single = 8;
-    }
-    result_ = search(fitter_, search_options);
+    result_ = searched();
     judgement_ = judge(fitter_, result_);
     decide();
     name_effects();
@@ -60,6 +53,7 @@ class Diagnosis {
     return nullptr;
   }
 
+  SearchResult searched();
   void decide();
   /// Square of the marginal: a member that is in every likely hypothesis gets nearly all.
   double sure(const sim::EffectInfo* effect) const {
@@ -80,6 +74,24 @@ class Diagnosis {
   Verdict verdict_;
   const Fit* winner_ = nullptr;
 };
+
+SearchResult Diagnosis::searched() {
+  if (model_.costly()) {
+    CostlyOptions costly;
+    costly.threads = options_.threads;
+    costly.progress = options_.progress;
+    return costly_search(fitter_, costly);
+  }
+  SearchOptions search_options;
+  search_options.threads = options_.threads;
+  search_options.progress = options_.progress;
+  if (model_.quick()) {
+    // All starts are followed, and long valleys (k_phi against n) to their end.
+    search_options.iterations = 60;
+    search_options.fits_of_single = 8;
+  }
+  return search(fitter_, search_options);
+}
 
 void Diagnosis::decide() {
   // What is written sums to one: a pair's probability is shared out by how sure each member is.

@@ -83,7 +83,8 @@ void write_truth(const RunSettings& run, const RunOutput& output) {
   if (std::filesystem::exists(output.truth) && !output.force) {
     throw UserError("--conceal " + output.truth.string() + ": exists; --force replaces it");
   }
-  write_file(output.truth, effects_toml(run, "Withheld from the folder of a " + run.kind + " run."));
+  write_file(output.truth,
+             effects_toml(run, "Withheld from the folder of a " + run.kind + " run."));
 }
 
 class Run {
@@ -106,7 +107,7 @@ class Run {
     }
     const std::filesystem::path path = folder_->commit();
     if (resume_) resume_->remove();
-    std::cout << path.string() << std::endl;
+    if (!output_.silent) std::cout << path.string() << std::endl;
   }
 
  private:
@@ -154,7 +155,7 @@ class Run {
                                                      {"threads", run_.threads}});
     write_report(folder_->working_path());
     if (session.interrupted) interrupt("the results up to that moment");
-    print(result);
+    if (!output_.silent) print(result);
   }
 
   /// Through a row of spines, where there are spines.

@@ -18,7 +18,8 @@ struct RunOutput {
   double checkpoint_every_s = sim::JournalSettings().checkpoint_every_s;
   BusChoice bus;  // of a run with its firmware on a CAN interface
   /// The run's effects stand here and nowhere in its folder; empty: nothing is concealed.
-  std::filesystem::path truth;
+  std::filesystem::path truth = {};
+  bool silent = false;  // prints no summary and no path
 };
 
 /// Runs, writes the folder and its report, prints the summary; the folder's path is the last line.
