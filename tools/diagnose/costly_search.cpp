@@ -19,10 +19,14 @@ constexpr double kExplained = 0.04, kNearNoise = 3;
 /// Room for misfits, as a share of what a fit leaves: first looks and rough fits, then closer.
 constexpr double kRough = 0.3, kCloser = 0.1;
 /// Starts of one effect that are fitted roughly, where they promise this share of its best.
-constexpr int kStartsOfOne = 2;
-constexpr double kNearBest = 0.6;
+constexpr int kStartsOfOne = 3;
+constexpr double kNearBest = 0.25;
 constexpr std::size_t kPolished = 2;
-constexpr int kRoughIterations = 3, kCloserIterations = 5, kLastIterations = 5;
+constexpr int kRoughIterations = 4, kCloserIterations = 5, kLastIterations = 5;
+
+/// No coordinate is known better: events in a rollout move by whole ticks, and from one to the
+/// next the squares are ragged, not a bowl. A quarter of a slope's step.
+constexpr double kLeastSigma = 0.005;
 
 class CostlySearch {
  public:
@@ -269,8 +273,13 @@ class CostlySearch {
   /// With the noise as the best fit leaves it.
   void judge_all() {
     say(0.95, "contenders");
-    for_all(result_.fits.size(), 0.95, 0.99, "contenders",
-            [this](std::size_t i) { fitter_.judge(result_.fits[i]); });
+    for_all(result_.fits.size(), 0.95, 0.99, "contenders", [this](std::size_t i) {
+      Fit& fit = result_.fits[i];
+      fitter_.judge(fit);
+      for (Eigen::Index c = 0; c < fit.x.size(); ++c) {
+        fit.covariance(c, c) = std::max(fit.covariance(c, c), kLeastSigma * kLeastSigma);
+      }
+    });
   }
 
   Fitter& fitter_;

@@ -53,7 +53,11 @@ std::vector<LinearStart> starts_of(const RigModel& model, const sim::EffectInfo*
       start.size = s.size_coordinate - setup;
       start.by_log = alone.of_effect(start.size).parameter->logarithmic;
     }
-    if (start.size < 0) start.size = ratio_of(*effect);
+    if (start.size < 0) {
+      // About 1 all starts of a ratio are one: those above it stand for all.
+      start.size = ratio_of(*effect);
+      if (start.size >= 0 && start.own[start.size] <= 0) continue;
+    }
     if (s.phase_coordinate >= 0) start.phase = s.phase_coordinate - setup;
     starts.push_back(std::move(start));
   }
