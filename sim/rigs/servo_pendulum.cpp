@@ -19,8 +19,8 @@ constexpr double kToothDamping = 0.7;
 constexpr double kSpringDamping = 0.02;
 constexpr double kGearStep_s = 0.5e-3;
 
-/// A recorded input between its samples: linear, or held where it is a switch. Cursors only go
-/// forward but for goals that are read late.
+/// A recorded input between its samples: linear, or the nearest where it is a switch. Cursors only
+/// go forward but for goals that are read late.
 class Signal {
  public:
   Signal(std::span<const double> time_s, std::span<const double> values)
@@ -40,10 +40,8 @@ class Signal {
     const std::size_t i = cursor_;
     return i + 1 < time_s_.size() && time_s_[i + 1] - t_s < t_s - time_s_[i] ? i + 1 : i;
   }
-  double held_at(double t_s) {
-    seek(t_s);
-    return values_[cursor_];
-  }
+  /// Of a switch: it turned somewhere between two samples, in the middle for all that is known.
+  double switched_at(double t_s) { return values_[nearest(t_s)]; }
 
  private:
   void seek(double t_s) {
@@ -212,7 +210,7 @@ void Pendulum::read_goals(double t_s) {
 }
 
 void Pendulum::evaluate_law(double t_s) {
-  enabled_ = !enable_.present() || enable_.held_at(t_s) > 0.5;
+  enabled_ = !enable_.present() || enable_.switched_at(t_s) > 0.5;
   if (s_.law == PendulumLaw::kTorque) {
     command_Nm_ = torque_.at(std::max(t_s - s_.input_late_s, in_.time_s.front()));
     return;

@@ -24,6 +24,29 @@ Effects with(const Effects& effects, const sim::EffectInfo* one) {
 
 }  // namespace
 
+Eigen::VectorXd carried(const RigModel& model, const Fit& from, const Effects& to,
+                        Eigen::VectorXd x) {
+  const int setup = Layout(model, {}).setup_count();
+  x.head(setup) = from.x.head(setup);
+  int at = setup;
+  for (const sim::EffectInfo* effect : to) {
+    const auto count = static_cast<int>(effect->parameters.size());
+    int there = setup;
+    for (const sim::EffectInfo* other : from.effects) {
+      if (other == effect) x.segment(at, count) = from.x.segment(there, count);
+      there += static_cast<int>(other->parameters.size());
+    }
+    at += count;
+  }
+  return x;
+}
+
+bool part_of(const Effects& some, const Effects& all) {
+  return std::all_of(some.begin(), some.end(), [&all](const sim::EffectInfo* e) {
+    return std::find(all.begin(), all.end(), e) != all.end();
+  });
+}
+
 bool listed(const Effects& effects) {
   return std::all_of(effects.begin(), effects.end(),
                      [](const sim::EffectInfo* e) { return e->listed; });

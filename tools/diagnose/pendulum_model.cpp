@@ -92,7 +92,8 @@ PendulumSettings read_settings(const DataSet& data_set, const Recording& recordi
     const SetupValue* value = setup.find(key.name);
     if (value) {
       settings.*key.member = value->value;
-    } else if (key.needed_by_all || ((key.duty || key.impedance) && used(key, setup.law))) {
+    } else if (key.needed_by_all || (key.duty && setup.law == DriveLaw::kDuty) ||
+               (key.impedance && setup.law == DriveLaw::kImpedance)) {
       throw UserError(where + " lacks " + key.name + ", which " + recording.name + " needs");
     }
   }

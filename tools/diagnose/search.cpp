@@ -27,6 +27,7 @@ class Search {
     fit_nominal();
     fit_singles();
     fit_pairs();
+    if (options_.crosswise) fit_crosswise();
     polish_best();
     take_noise_of_best();
     fit_contenders();
@@ -85,18 +86,61 @@ class Search {
     }
   }
 
-  /// A hypothesis holds the nominal model: one that comes out worse went astray, and is followed
-  /// once more from there.
+  /// A hypothesis holds the nominal model, and a pair each of its members: one that comes out worse
+  /// than what it holds went astray, and is followed once more from there.
   Fit follow_one(const Candidate& candidate) const {
-    const Fit fit = settle(best_size(candidate));
-    const Fit& nominal = result_.fits[0];
-    if (fit.objective <= nominal.objective || candidate.size_coordinate < 0) return fit;
-    Eigen::VectorXd x = candidate.x;
-    x.head(nominal.x.size()) = nominal.x;
-    double& size = x[candidate.size_coordinate];
-    size = candidate.by_log ? size + std::log(kAlmostNothing) : size * kAlmostNothing;
-    const Fit again = fitter_.fit(candidate.effects, x, options_.iterations, fitter_.weights());
-    return again.objective < fit.objective ? again : fit;
+    Fit fit = settle(best_size(candidate));
+    for (const Fit& simpler : result_.fits) {
+      const bool held = simpler.effects.size() < candidate.effects.size() &&
+                        part_of(simpler.effects, candidate.effects);
+      if (!held || fit.objective <= simpler.objective) continue;
+      Eigen::VectorXd x = carried(fitter_.model(), simpler, candidate.effects, candidate.x);
+      make_small(x, candidate.effects, simpler.effects);
+      Fit again = fitter_.fit(candidate.effects, x, options_.iterations, fitter_.weights());
+      if (again.objective < fit.objective) fit = std::move(again);
+    }
+    return fit;
+  }
+
+  /// Effects that are not among `there` at almost no size, where they have one.
+  void make_small(Eigen::VectorXd& x, const Effects& effects, const Effects& there) const {
+    int at = Layout(fitter_.model(), {}).setup_count();
+    const int setup = at;
+    for (const sim::EffectInfo* effect : effects) {
+      if (std::find(there.begin(), there.end(), effect) == there.end()) {
+        const Layout alone(fitter_.model(), {effect});
+        const auto starts = alone.starts(x);
+        const int size = starts.empty() ? -1 : starts[0].size_coordinate;
+        if (size >= 0) {
+          double& value = x[at + size - setup];
+          const bool by_log = alone.of_effect(size - setup).parameter->logarithmic;
+          value = by_log ? value + std::log(kAlmostNothing) : value * kAlmostNothing;
+        }
+      }
+      at += static_cast<int>(effect->parameters.size());
+    }
+  }
+
+  /// The best of all hand what they found, of the setup and of the effects that they share, to
+  /// their rivals, which may have been stuck.
+  void fit_crosswise() {
+    say(0.7, "from one another");
+    constexpr std::size_t kDonors = 2;
+    const std::vector<Fit> best = ranked();
+    std::vector<Candidate> again;
+    for (std::size_t d = 0; d < std::min(kDonors, best.size()); ++d) {
+      if (best[d].effects.empty()) continue;
+      for (std::size_t i = 0; i < std::min<std::size_t>(best.size(), options_.contenders); ++i) {
+        const bool share =
+            std::any_of(best[i].effects.begin(), best[i].effects.end(),
+                        [&](const sim::EffectInfo* e) { return part_of({e}, best[d].effects); });
+        if (i == d || !share) continue;
+        again.push_back({best[i].effects,
+                         carried(fitter_.model(), best[d], best[i].effects, best[i].x), 0, -1,
+                         false, true});
+      }
+    }
+    follow(again, 0.7, 0.78, "from one another", false);
   }
 
   /// Each coordinate tried both ways, with a step that halves where neither helps.
@@ -130,7 +174,8 @@ class Search {
     fit.effects = candidate.effects;
     fit.x = candidate.x;
     if (candidate.size_coordinate < 0 || candidate.sized) return fit;
-    const auto weights = fitter_.roomy_weights(result_.fits[0].squares, 0.5);
+    const auto weights = candidate.weights ? *candidate.weights
+                                           : fitter_.roomy_weights(result_.fits[0].squares, 0.5);
     double least = 1e300;
     for (const double scale : {1.0, 0.4, 0.15, 0.05, 0.01, 1e-3}) {
       Eigen::VectorXd x = candidate.x;
@@ -166,9 +211,41 @@ class Search {
     return all;
   }
 
+  /// The nominal model with its setup held near what was stated, and where it follows the
+  /// recordings only. Where physics is missing the setup of the best nominal fit stands in for it,
+  /// tens of sigmas away; and a swing of which it has lost the phase pulls it anywhere.
+  Fit restrained() {
+    constexpr double kPull = 40;  // samples' worth that the recordings pull with
+    Fit fit;
+    fit.x = Eigen::VectorXd::Zero(result_.fits[0].x.size());
+    double samples = 1;
+    for (const Group& g : fitter_.groups()) samples += g.holdout ? 0 : g.samples;
+    for (int round = 0; round < 2; ++round) {
+      const auto until = fitter_.followed_until(fit);
+      Fitter::Weights weights = fitter_.roomy_weights(fitter_.squares(fit, until), 1);
+      weights.until = until;
+      for (double& w : weights.scale) w *= std::sqrt(kPull / samples);
+      fit = fitter_.fit({}, fit.x, 4, weights, 1e-3);
+    }
+    const auto until = fitter_.followed_until(fit);
+    fit.squares = fitter_.squares(fit, until);
+    rough_weights_ = fitter_.roomy_weights(fit.squares, 0.5);
+    rough_weights_.until = until;
+    return fit;
+  }
+
   void fit_singles() {
     say(0.05, "one effect");
     std::vector<Candidate> singles = look_beside(result_.fits[0], options_.fits_of_single);
+    if (options_.restrained) {
+      const Fit base = restrained();
+      Fitter::Weights weights = fitter_.roomy_weights(base.squares, 0.3);
+      weights.until = rough_weights_.until;
+      for (Candidate& c : look_beside(base, options_.fits_of_single, weights)) {
+        c.weights = &rough_weights_;
+        singles.push_back(std::move(c));
+      }
+    }
     if (static_cast<int>(singles.size()) > options_.singles) {
       std::stable_sort(singles.begin(), singles.end(),
                        [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
@@ -185,10 +262,11 @@ class Search {
     const double nominal = fitter_.objective({}, result_.fits[0].x, weights);
     for_each_task(static_cast<int>(candidates.size()), options_.threads, [&](int i) {
       Candidate& c = candidates[i];
-      const Fit fit =
-          fitter_.fit(c.effects, best_size(c).x, options_.rough_iterations, weights, 1e-3);
-      c.x = fit.x;
-      c.gain = nominal - fit.objective;
+      c.x = fitter_
+                .fit(c.effects, best_size(c).x, options_.rough_iterations,
+                     c.weights ? *c.weights : weights, 1e-3)
+                .x;
+      c.gain = nominal - fitter_.objective(c.effects, c.x, weights);
       c.sized = true;
     });
     std::stable_sort(candidates.begin(), candidates.end(),
@@ -227,7 +305,7 @@ class Search {
     if (static_cast<int>(pairs.size()) > options_.pair_fits) pairs.resize(options_.pair_fits);
     for (Candidate& pair : pairs) put_in_order(pair);
     pairs = most_promising(std::move(pairs), options_.follow_pairs);
-    follow(pairs, 0.5, 0.75, "pairs");
+    follow(pairs, 0.5, 0.7, "pairs");
   }
 
   /// Effects of a pair in the order of their names, as in the catalogue, so that both ways round
@@ -324,6 +402,7 @@ class Search {
   Fitter& fitter_;
   const SearchOptions& options_;
   SearchResult result_;
+  Fitter::Weights rough_weights_;  // where the nominal model follows the recordings
   std::thread::id caller_ = std::this_thread::get_id();
 };
 
@@ -392,6 +471,8 @@ SearchOptions frugal_search() {
   options.polish_steps = 50;
   options.rough_iterations = 0;
   options.looked_at = 0;
+  options.crosswise = false;
+  options.restrained = false;
   return options;
 }
 
