@@ -11,6 +11,8 @@ namespace hoof::tools {
 struct Candidate {
   Effects effects;
   Eigen::VectorXd x;
+  /// By how much the base's own coordinates give way to the effect at this size, linearly.
+  Eigen::VectorXd give;
   double gain = 0;  // by which half the sum of squares would fall, linearly
   int size_coordinate = -1;
   bool by_log = false;
@@ -22,6 +24,7 @@ struct Candidate {
 struct Tangent {
   Eigen::VectorXd r;
   Eigen::MatrixXd basis;
+  Eigen::MatrixXd inverse;  // residuals to coordinates, priors heeded
 };
 
 Tangent tangent(const Fitter& fitter, const Fit& fit, const Fitter::Weights& weights);

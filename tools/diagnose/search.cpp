@@ -136,8 +136,12 @@ class Search {
                         [&](const sim::EffectInfo* e) { return part_of({e}, best[d].effects); });
         if (i == d || !share) continue;
         again.push_back({best[i].effects,
-                         carried(fitter_.model(), best[d], best[i].effects, best[i].x), 0, -1,
-                         false, true});
+                         carried(fitter_.model(), best[d], best[i].effects, best[i].x),
+                         {},
+                         0,
+                         -1,
+                         false,
+                         true});
       }
     }
     follow(again, 0.7, 0.78, "from one another", false);
@@ -168,21 +172,30 @@ class Search {
     return fit;
   }
 
-  /// The candidate at the size, of some, that leaves least: a linear step may go too far.
+  /// The candidate at the size, of some, that leaves least: a linear step may go too far. The other
+  /// coordinates stay, or give way as a linear step has it.
   Fit best_size(const Candidate& candidate) const {
     Fit fit;
     fit.effects = candidate.effects;
     fit.x = candidate.x;
-    if (candidate.size_coordinate < 0 || candidate.sized) return fit;
+    if (candidate.sized) return fit;
     const auto weights = candidate.weights ? *candidate.weights
                                            : fitter_.roomy_weights(result_.fits[0].squares, 0.5);
     double least = 1e300;
     for (const double scale : {1.0, 0.4, 0.15, 0.05, 0.01, 1e-3}) {
       Eigen::VectorXd x = candidate.x;
-      double& size = x[candidate.size_coordinate];
-      size = candidate.by_log ? size + std::log(scale) : size * scale;
-      const double objective = fitter_.objective(fit.effects, x, weights);
-      if (objective < least) least = objective, fit.x = x;
+      if (candidate.size_coordinate >= 0) {
+        double& size = x[candidate.size_coordinate];
+        size = candidate.by_log ? size + std::log(scale) : size * scale;
+      } else if (scale < 1) {
+        break;
+      }
+      for (const double share : {0.0, 1.0}) {
+        if (share > 0 && candidate.give.size() == 0) continue;
+        const Eigen::VectorXd at = share > 0 ? x + share * scale * candidate.give : x;
+        const double objective = fitter_.objective(fit.effects, at, weights);
+        if (objective < least) least = objective, fit.x = at;
+      }
     }
     return fit;
   }
@@ -318,6 +331,10 @@ class Search {
     Eigen::VectorXd x(pair.x.size());
     x << pair.x.head(setup), pair.x.tail(second), pair.x.segment(setup, first);
     pair.x = x;
+    if (pair.give.size() > 0) {
+      const Eigen::VectorXd give = pair.give;
+      pair.give << give.head(setup), give.tail(second), give.segment(setup, first);
+    }
     if (pair.size_coordinate >= setup + first) {
       pair.size_coordinate -= static_cast<int>(first);
     }
@@ -357,10 +374,10 @@ class Search {
     say(0.8, "contenders");
     std::vector<Fit> fits = ranked();
     const Fit nominal = result_.fits[0];
-    std::vector<Candidate> again = {{nominal.effects, nominal.x, 0, -1, false}};
+    std::vector<Candidate> again = {{nominal.effects, nominal.x, {}, 0, -1, false}};
     for (const Fit& fit : fits) {
       if (!fit.effects.empty() && static_cast<int>(again.size()) < options_.contenders) {
-        again.push_back({fit.effects, fit.x, 0, -1, false});
+        again.push_back({fit.effects, fit.x, {}, 0, -1, false});
       }
     }
     std::vector<Fit> others;
