@@ -23,6 +23,7 @@ constexpr double kLongestStep_s = 2.5e-3;
 /// Doubt of when inputs act: of a control period, and of the time between samples.
 constexpr double kPeriodShare = 0.2;
 constexpr double kSampleShare = 0.05;
+constexpr double kSwitchShare = 0.3;  // uniform over a sample
 /// And no more than this many of its sigmas: what is later still is a delay.
 constexpr double kMostTiming = 2;
 
@@ -218,6 +219,19 @@ void PendulumModel::add_timing(Run& run) {
     doubtful_.push_back({name, 0, sigma, -kMostTiming * sigma, kMostTiming * sigma});
   }
   run.timing = index;
+  add_switch_timing(run, sample_s);
+}
+
+/// A drive turns off somewhere between two samples; a swing that begins there remembers when.
+void PendulumModel::add_switch_timing(Run& run, double sample_s) {
+  const auto enable = channel(*run.recording, "enable");
+  const auto turns = [](double a, double b) { return (a > 0.5) != (b > 0.5); };
+  const bool switched = std::adjacent_find(enable.begin(), enable.end(), turns) != enable.end();
+  if (!switched || run.recording->holdout) return;
+  const double sigma = kSwitchShare * sample_s;
+  run.switch_timing = static_cast<int>(doubtful_.size());
+  doubtful_.push_back({"switch_timing@" + run.recording->name, 0, sigma, -kMostTiming * sigma,
+                       kMostTiming * sigma});
 }
 
 PendulumSettings PendulumModel::settings(const Run& run, std::span<const double> setup) const {
@@ -227,6 +241,7 @@ PendulumSettings PendulumModel::settings(const Run& run, std::span<const double>
     if (doubt != run.doubts.end()) settings.*key.member = setup[doubt->second];
   }
   if (run.timing >= 0) settings.input_late_s = setup[run.timing];
+  if (run.switch_timing >= 0) settings.switch_late_s = setup[run.switch_timing];
   settings.resistance_ohm = std::max(settings.resistance_ohm, 1e-6);
   return settings;
 }

@@ -47,6 +47,12 @@ class Search {
     Fit nominal;
     nominal.x = layout.stated();
     nominal = settle(nominal);
+    if (options_.restrained) {
+      result_.fits = {nominal};
+      held_ = restrained();
+      Fit other = settle(held_);
+      if (other.objective < nominal.objective) nominal = std::move(other);
+    }
     fitter_.judge(nominal);
     result_.fits = {nominal};
   }
@@ -126,15 +132,18 @@ class Search {
   void fit_crosswise() {
     say(0.7, "from one another");
     constexpr std::size_t kDonors = 2;
-    const std::vector<Fit> best = ranked();
+    std::vector<Fit> best = ranked();
+    best.resize(std::min<std::size_t>(best.size(), options_.contenders));
+    // The nominal model among them always: what it can do by itself is no missing physics.
+    best.push_back(result_.fits[0]);
     std::vector<Candidate> again;
     for (std::size_t d = 0; d < std::min(kDonors, best.size()); ++d) {
       if (best[d].effects.empty()) continue;
-      for (std::size_t i = 0; i < std::min<std::size_t>(best.size(), options_.contenders); ++i) {
+      for (std::size_t i = 0; i < best.size(); ++i) {
         const bool share =
             std::any_of(best[i].effects.begin(), best[i].effects.end(),
                         [&](const sim::EffectInfo* e) { return part_of({e}, best[d].effects); });
-        if (i == d || !share) continue;
+        if (i == d || (!share && !best[i].effects.empty())) continue;
         again.push_back({best[i].effects,
                          carried(fitter_.model(), best[d], best[i].effects, best[i].x),
                          {},
@@ -251,10 +260,9 @@ class Search {
     say(0.05, "one effect");
     std::vector<Candidate> singles = look_beside(result_.fits[0], options_.fits_of_single);
     if (options_.restrained) {
-      const Fit base = restrained();
-      Fitter::Weights weights = fitter_.roomy_weights(base.squares, 0.3);
+      Fitter::Weights weights = fitter_.roomy_weights(held_.squares, 0.3);
       weights.until = rough_weights_.until;
-      for (Candidate& c : look_beside(base, options_.fits_of_single, weights)) {
+      for (Candidate& c : look_beside(held_, options_.fits_of_single, weights)) {
         c.weights = &rough_weights_;
         singles.push_back(std::move(c));
       }
@@ -419,6 +427,7 @@ class Search {
   Fitter& fitter_;
   const SearchOptions& options_;
   SearchResult result_;
+  Fit held_;                       // restrained()
   Fitter::Weights rough_weights_;  // where the nominal model follows the recordings
   std::thread::id caller_ = std::this_thread::get_id();
 };
