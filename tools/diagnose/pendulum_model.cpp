@@ -17,8 +17,8 @@ using sim::PendulumSettings;
 
 /// Where no control period is stated the law is evaluated at every step of this length: a servo's
 /// loop closes at a few Hz, so that a hundred steps go into a radian of its phase.
-constexpr double kFreeStep_s = 2e-3;
-constexpr double kLongestStep_s = 2.5e-3;
+constexpr double kFreeStep_s = 1e-3;
+constexpr double kLongestStep_s = 1e-3;
 
 /// Doubt of when inputs act: of a control period, and of the time between samples.
 constexpr double kPeriodShare = 0.2;
