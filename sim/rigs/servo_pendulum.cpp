@@ -19,8 +19,8 @@ constexpr double kToothDamping = 0.7;
 constexpr double kSpringDamping = 0.02;
 constexpr double kGearStep_s = 0.5e-3;
 
-/// A recorded input between its samples: linear, or held where it is a switch. Cursors only go
-/// forward but for goals that are read late.
+/// A recorded input between its samples: linear, or the nearest where it is a switch. Cursors only
+/// go forward but for goals that are read late.
 class Signal {
  public:
   Signal(std::span<const double> time_s, std::span<const double> values)
@@ -40,9 +40,16 @@ class Signal {
     const std::size_t i = cursor_;
     return i + 1 < time_s_.size() && time_s_[i + 1] - t_s < t_s - time_s_[i] ? i + 1 : i;
   }
-  double held_at(double t_s) {
-    seek(t_s);
-    return values_[cursor_];
+  /// Of a switch, the share of a span of time for which it is on. It turned somewhere between two
+  /// samples, in the middle for all that is known.
+  double share_on(double from_s, double to_s) {
+    const bool first = values_[nearest(from_s)] > 0.5;
+    const std::size_t i = nearest(to_s);
+    const bool last = values_[i] > 0.5;
+    if (first == last || i == 0) return last ? 1 : 0;
+    const double turned_s = 0.5 * (time_s_[i - 1] + time_s_[i]);
+    const double share = std::clamp((turned_s - from_s) / (to_s - from_s), 0.0, 1.0);
+    return first ? share : 1 - share;
   }
 
  private:
@@ -148,6 +155,7 @@ class Pendulum {
   double external_Nm_ = 0;                // of gravity and springs on the link
   double position_goal_ = 0, velocity_goal_now_ = 0, feed_forward_now_ = 0;
   bool enabled_ = true;
+  double on_share_ = 1;  // of the period of the law for which the drive is on
   double duty_ = 0, volt_ = 0, command_Nm_ = 0, motor_Nm_ = 0, current_A_ = 0;
   double way_ = 0;    // of the last slide
   double now_s_ = 0;  // since the first sample
@@ -212,7 +220,9 @@ void Pendulum::read_goals(double t_s) {
 }
 
 void Pendulum::evaluate_law(double t_s) {
-  enabled_ = !enable_.present() || enable_.held_at(t_s) > 0.5;
+  const double begin = t_s - s_.switch_late_s;
+  on_share_ = enable_.present() ? enable_.share_on(begin, begin + h_ * steps_per_law_) : 1;
+  enabled_ = on_share_ > 0;
   if (s_.law == PendulumLaw::kTorque) {
     command_Nm_ = torque_.at(std::max(t_s - s_.input_late_s, in_.time_s.front()));
     return;
@@ -227,7 +237,7 @@ void Pendulum::evaluate_law(double t_s) {
   const double torque = s_.kp_Nm_rad * error +
                         s_.kd_Nm_s_rad * (velocity_goal_now_ - slope(q_) * w_) + feed_forward_now_;
   command_Nm_ = std::clamp(torque, -s_.torque_limit_Nm, s_.torque_limit_Nm);
-  if (!enabled_) command_Nm_ = 0;
+  command_Nm_ *= on_share_;
 }
 
 double Pendulum::drive_torque_Nm() {
@@ -236,7 +246,7 @@ double Pendulum::drive_torque_Nm() {
     for (const JointEffect* effect : stages_.supply)
       volt = effect->supply_V(volt, current_A_, duty_);
     const double share = s_.kt_Nm_A / s_.resistance_ohm;
-    command_Nm_ = enabled_ ? share * (duty_ * volt - s_.kt_Nm_A * w_) : 0;
+    command_Nm_ = on_share_ * share * (duty_ * volt - s_.kt_Nm_A * w_);
     current_A_ = command_Nm_ / s_.kt_Nm_A;
   }
   double torque = command_Nm_;

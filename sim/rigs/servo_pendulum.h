@@ -31,6 +31,7 @@ struct PendulumSettings {
   double viscous_Nm_s_rad = 0;
   /// Inputs act this much after the time that the recording gives them; may be negative.
   double input_late_s = 0;
+  double switch_late_s = 0;  // the drive turns on and off this much after the middle of two samples
   double control_period_s = 0;  // 0: the law is evaluated at each step
 
   double kp_duty = 0;

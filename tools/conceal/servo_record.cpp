@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -122,12 +123,16 @@ std::vector<SetupEntry> setup_of(const ServoPlan& plan) {
                                    {"control_period", m.control_period_s},
                                    {"gravity", m.gravity_m_s2},
                                    {"payload_length", m.payload_length_m}};
-  bool doubtful_mass = false;
-  for (const DoubtfulParameter& d : plan.doubts) {
-    setup.push_back({d.key, d.believed, d.sigma});
-    doubtful_mass = doubtful_mass || d.key == "payload_mass";
+  for (const DoubtfulParameter& d : plan.doubts) setup.push_back({d.key, d.believed, d.sigma});
+  // What is not doubtful is known; left out it would be unknown.
+  const std::pair<const char*, double> known[] = {{"payload_mass", m.payload_mass_kg},
+                                                  {"coulomb", m.coulomb_Nm},
+                                                  {"viscous", m.viscous_Nms_rad}};
+  for (const auto& [key, value] : known) {
+    const bool doubtful = std::any_of(plan.doubts.begin(), plan.doubts.end(),
+                                      [key = key](const auto& d) { return d.key == key; });
+    if (!doubtful) setup.push_back({key, value});
   }
-  if (!doubtful_mass) setup.push_back({"payload_mass", m.payload_mass_kg});
   if (m.law == DriveLaw::kImpedance) {
     setup.push_back({"kd", m.kd_Nms_rad});
     setup.push_back({"torque_limit", m.torque_limit_Nm});

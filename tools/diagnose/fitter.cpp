@@ -18,6 +18,9 @@ namespace {
 /// Residuals larger than this many sigmas are bent to grow by their root.
 constexpr double kBend = 10;
 constexpr double kLargest = 1e6;  // where a model runs away
+/// A rollout is lost where it is this many deviations of the noise off, and this long after.
+constexpr double kLost = 40;
+constexpr double kAfterLoss_s = 0.2;
 
 double bent(double r) {
   const double size = std::abs(r);
@@ -89,7 +92,7 @@ Prediction Fitter::predict(const Fit& fit, int recording, Rollout rollout) const
 
 Fitter::Weights Fitter::weights() const {
   Weights weights;
-  for (const Group& g : groups_) weights.push_back(std::sqrt(g.effective) / g.sigma);
+  for (const Group& g : groups_) weights.scale.push_back(std::sqrt(g.effective) / g.sigma);
   return weights;
 }
 
@@ -98,9 +101,29 @@ Fitter::Weights Fitter::roomy_weights(const std::vector<double>& squares, double
   for (std::size_t i = 0; i < groups_.size(); ++i) {
     const Group& g = groups_[i];
     const double misfit = std::sqrt(squares[i] / std::max(g.samples, 1.0));
-    weights.push_back(1 / std::max(g.noise, share * misfit));
+    weights.scale.push_back(1 / std::max(g.noise, share * misfit));
   }
   return weights;
+}
+
+std::vector<std::size_t> Fitter::followed_until(const Fit& fit) const {
+  std::vector<std::size_t> until;
+  for (int i = 0; i < model_->recordings(); ++i) {
+    const std::vector<double>& t = model_->recording(i).time_s;
+    const Prediction p = predict(fit, i, Rollout::kCorrected);
+    std::size_t last = t.size();
+    for (const Group& g : groups_) {
+      if (g.recording != i) continue;
+      const std::vector<double> d = differences(g, p[g.channel]);
+      for (std::size_t k = 0; k < last; ++k) {
+        if (std::abs(d[k]) > kLost * g.noise) last = k;
+      }
+    }
+    const double end_s = last < t.size() ? t[last] + kAfterLoss_s : t.back();
+    while (last < t.size() && t[last] < end_s) ++last;
+    until.push_back(last);
+  }
+  return until;
 }
 
 Eigen::VectorXd Fitter::residuals(const Layout& layout, const Eigen::VectorXd& x,
@@ -120,9 +143,11 @@ Eigen::VectorXd Fitter::residuals(const Layout& layout, const Eigen::VectorXd& x
     const std::string& name = model_->channels(group.recording)[group.channel];
     const auto& measured = model_->recording(group.recording).channels.at(name);
     const auto& values = prediction[group.channel];
+    const std::size_t until =
+        weights.until.empty() ? measured.size() : weights.until[group.recording];
     for (std::size_t i = 0; i < measured.size(); ++i) {
-      const double difference = (measured[i] - values[i]) * weights[g];
-      const bool missing = !std::isfinite(measured[i]);
+      const double difference = (measured[i] - values[i]) * weights.scale[g];
+      const bool missing = !std::isfinite(measured[i]) || i >= until;
       all.push_back(missing ? 0 : std::isfinite(difference) ? bent(difference) : bent(kLargest));
     }
   }
@@ -176,7 +201,7 @@ Fit Fitter::fit(const Effects& effects, const Eigen::VectorXd& start, int iterat
   return fit;
 }
 
-std::vector<double> Fitter::squares(const Fit& fit) const {
+std::vector<double> Fitter::squares(const Fit& fit, const std::vector<std::size_t>& until) const {
   std::vector<double> squares;
   Prediction prediction;
   int predicted = -1;
@@ -186,8 +211,10 @@ std::vector<double> Fitter::squares(const Fit& fit) const {
       predicted = group.recording;
     }
     double sum = 0;
-    for (const double d : differences(group, prediction[group.channel])) {
-      if (std::isfinite(d)) sum += d * d;
+    const std::vector<double> d = differences(group, prediction[group.channel]);
+    const std::size_t end = until.empty() ? d.size() : until[group.recording];
+    for (std::size_t i = 0; i < end; ++i) {
+      if (std::isfinite(d[i])) sum += d[i] * d[i];
     }
     squares.push_back(sum);
   }

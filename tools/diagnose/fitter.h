@@ -42,11 +42,19 @@ class Fitter {
   std::vector<Group>& groups() { return groups_; }
   const std::vector<Group>& groups() const { return groups_; }
 
-  /// What differences are multiplied by, by group: the root of `effective` over sigma.
-  using Weights = std::vector<double>;
+  /// How differences count.
+  struct Weights {
+    std::vector<double> scale;       // by group, what they are multiplied by
+    std::vector<std::size_t> until;  // by recording, the first sample that does not; empty: all do
+  };
+  /// The root of `effective` over sigma.
   Weights weights() const;
   /// The same with room for a misfit: sigma no less than `share` of what `squares` leave.
   Weights roomy_weights(const std::vector<double>& squares, double share) const;
+
+  /// By recording the sample until which a fit follows it, and some time more: where a rollout has
+  /// gone another way, as a free swing does, its differences lead a search astray.
+  std::vector<std::size_t> followed_until(const Fit& fit) const;
 
   /// All residuals of the fit recordings, weighted, and after them the priors'. Beyond kBend they
   /// grow by the root only: a rollout that went another way must not hide all else.
@@ -61,7 +69,8 @@ class Fitter {
   /// Half the sum of squares at x.
   double objective(const Effects& effects, const Eigen::VectorXd& x, const Weights& weights) const;
   /// Sum of squared differences by group, SI.
-  std::vector<double> squares(const Fit& fit) const;
+  /// @param until as of Weights
+  std::vector<double> squares(const Fit& fit, const std::vector<std::size_t>& until = {}) const;
   /// Covariance, evidence, squares by group at fit.x.
   void judge(Fit& fit) const;
 

@@ -13,16 +13,19 @@ constexpr double kNone = 0.30, kSingle = 0.38, kPair = 0.17, kUnknown = 0.15;
 /// Evidence is counted down by this: samples that look independent share one model's errors, and
 /// a fitted integrator is not the plant. From the calibration on concealed plants (README).
 constexpr double kTemperature = 2.0;
-/// And the more so the more there is to explain: a model's own errors grow with the effect. Half a
-/// percent of the best's evidence is worth three in a logarithm of odds.
-constexpr double kRelative = 1.0 / 600;
+/// And the more so the more there is to explain: a model's own errors grow with the effect. A
+/// thousandth of the best's evidence is worth three in a logarithm of odds.
+constexpr double kRelative = 1.0 / 3000;
 /// No model is the plant: this much log likelihood per independent sample proves nothing.
 constexpr double kTolerated = 0.006;
 constexpr double kLeastGain = 2, kNoFinding = 4;
-/// Unknown physics is as likely as what the list names where that takes away this share of the
-/// squares above the noise; a share less by kRemovedSpread makes it e times more likely.
-constexpr double kRemovedByKnown = 0.45;
-constexpr double kRemovedSpread = 0.06;
+/// Of the order in what the nominal model leaves (structure()), what of the list leaves this share
+/// is as likely as not to miss something that is not in the list; e times as likely for each spread.
+constexpr double kLeftByKnown = 0.43, kLeftSpread = 0.05;
+/// A nominal model that leaves so much, and nothing that takes it away: the same.
+constexpr double kUnexplained = 0.17, kUnexplainedSpread = 0.03;
+/// Where it leaves less, shares of it say nothing.
+constexpr double kLeastStructure = 0.004;
 /// Share of answers that are wrong although the evidence is overwhelming, on concealed plants.
 constexpr double kDoubt = 0.12;
 
@@ -94,23 +97,19 @@ double worse_held_out(const Fitter& fitter, const SearchResult& result, const Fi
   return 0.5 * std::max(best - holdout_gain(fitter, pair, none), 0.0);
 }
 
-/// By channel the share of squares above the noise that is gone, the mean over the groups weighted
-/// by how far the nominal model is off in them.
-double removed(const Fitter& fitter, const Fit& fit, const Fit& none) {
-  double sum = 0, weights = 0;
+/// What a fit leaves above the noise and in order, as log likelihood per sample: what looks
+/// independent from sample to sample is noise, wherever it is from.
+double structure(const Fitter& fitter, const Fit& fit) {
+  double sum = 0, samples = 0;
   for (std::size_t g = 0; g < fitter.groups().size(); ++g) {
     const Group& group = fitter.groups()[g];
     if (group.holdout || group.samples < 1) continue;
-    const double floor = group.noise * group.noise * group.samples;
-    // What is left and looks independent from sample to sample is noise, wherever it is from.
-    const double before = none.squares[g] - floor;
-    const double after = std::max(fit.squares[g] - floor, 0.0) * (1 - group.effective);
-    if (before <= 0.05 * floor) continue;
-    const double weight = std::log1p(before / floor) * group.samples;
-    sum += weight * std::clamp(1 - after / before, -1.0, 1.0);
-    weights += weight;
+    const double noise = group.noise * group.noise;
+    const double above = std::max(fit.squares[g] / (group.samples * noise) - 1, 0.0);
+    sum += 0.5 * group.samples * std::log1p((1 - group.effective) * above);
+    samples += group.samples;
   }
-  return weights > 0 ? sum / weights : 1;
+  return samples > 0 ? sum / samples : 0;
 }
 
 double log_prior(const Fit& fit, double singles, double pairs, double stand_ins) {
@@ -119,11 +118,14 @@ double log_prior(const Fit& fit, double singles, double pairs, double stand_ins)
   return fit.effects.size() == 1 ? std::log(kSingle / singles) : std::log(kPair / pairs);
 }
 
-/// Takes from each hypothesis of the list what it leaves unexplained, for the unknown.
-void suspect_unknown(std::vector<Standing>& standings) {
+/// Takes from each hypothesis what it leaves unexplained, for the unknown.
+void suspect_unknown(std::vector<Standing>& standings, double none) {
   for (Standing& s : standings) {
-    if (!s.listed || s.fit->effects.empty()) continue;
-    s.insufficient = 1 / (1 + std::exp((s.removed - kRemovedByKnown) / kRemovedSpread));
+    if (s.fit->effects.empty()) {
+      s.insufficient = 1 / (1 + std::exp((kUnexplained - none) / kUnexplainedSpread));
+    } else if (s.listed && none > kLeastStructure) {
+      s.insufficient = 1 / (1 + std::exp((kLeftByKnown - s.left) / kLeftSpread));
+    }
   }
 }
 
@@ -154,6 +156,7 @@ Judgement judge(const Fitter& fitter, const SearchResult& result) {
   for (const Fit& fit : result.fits) {
     most = std::max(most, fit.log_evidence - none.log_evidence + holdout_gain(fitter, fit, none));
   }
+  const double whole = structure(fitter, none);
   double top = -1e300;
   std::vector<double> score;
   for (const Fit& fit : result.fits) {
@@ -165,7 +168,7 @@ Judgement judge(const Fitter& fitter, const SearchResult& result) {
                0};
     const Gains g = gains(fitter, fit, none);
     s.explained = g.possible > 0 ? g.made / g.possible : 1;
-    s.removed = removed(fitter, fit, none);
+    s.left = whole > 0 ? structure(fitter, fit) / whole : 0;
     score.push_back(tempered(s, none, tolerance, most) - worse_held_out(fitter, result, fit) +
                     log_prior(fit, singles, pairs, stand_ins));
     top = std::max(top, score.back());
@@ -179,7 +182,7 @@ Judgement judge(const Fitter& fitter, const SearchResult& result) {
   std::stable_sort(
       j.standings.begin(), j.standings.end(),
       [](const Standing& a, const Standing& b) { return a.probability > b.probability; });
-  suspect_unknown(j.standings);
+  suspect_unknown(j.standings, whole);
   const Gains all = gains(fitter, none, none);
   j.misfit = all.samples > 0 ? all.possible / all.samples : 0;
   for (const Standing& s : j.standings) {
@@ -193,7 +196,8 @@ Judgement judge(const Fitter& fitter, const SearchResult& result) {
   }
   for (Standing& s : j.standings) {
     if (s.fit->effects.empty()) {
-      j.none += s.probability;
+      j.none += (1 - s.insufficient) * s.probability;
+      j.unknown += s.insufficient * s.probability;
     } else if (!s.listed) {
       j.unknown += s.probability;
     } else {

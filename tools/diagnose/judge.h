@@ -17,8 +17,8 @@ struct Standing {
   double evidence = 0;      // log evidence of the fit recordings
   double holdout_gain = 0;  // log predictive density of the held-out ones
   double explained = 0;  // share of the log likelihood between nominal and bare noise; 1: all of it
-  /// Of the squares that the nominal model leaves above the noise, how much this takes away.
-  double removed = 0;
+  /// Of the order in what the nominal model leaves, the share that this leaves.
+  double left = 0;
   double insufficient = 0;  // probability that something beside the list is at work
   double probability = 0;
 };

@@ -17,12 +17,13 @@ using sim::PendulumSettings;
 
 /// Where no control period is stated the law is evaluated at every step of this length: a servo's
 /// loop closes at a few Hz, so that a hundred steps go into a radian of its phase.
-constexpr double kFreeStep_s = 2e-3;
-constexpr double kLongestStep_s = 2.5e-3;
+constexpr double kFreeStep_s = 1e-3;
+constexpr double kLongestStep_s = 1e-3;
 
 /// Doubt of when inputs act: of a control period, and of the time between samples.
 constexpr double kPeriodShare = 0.2;
 constexpr double kSampleShare = 0.05;
+constexpr double kSwitchShare = 0.3;  // uniform over a sample
 /// And no more than this many of its sigmas: what is later still is a delay.
 constexpr double kMostTiming = 2;
 
@@ -92,7 +93,8 @@ PendulumSettings read_settings(const DataSet& data_set, const Recording& recordi
     const SetupValue* value = setup.find(key.name);
     if (value) {
       settings.*key.member = value->value;
-    } else if (key.needed_by_all || ((key.duty || key.impedance) && used(key, setup.law))) {
+    } else if (key.needed_by_all || (key.duty && setup.law == DriveLaw::kDuty) ||
+               (key.impedance && setup.law == DriveLaw::kImpedance)) {
       throw UserError(where + " lacks " + key.name + ", which " + recording.name + " needs");
     }
   }
@@ -217,6 +219,19 @@ void PendulumModel::add_timing(Run& run) {
     doubtful_.push_back({name, 0, sigma, -kMostTiming * sigma, kMostTiming * sigma});
   }
   run.timing = index;
+  add_switch_timing(run, sample_s);
+}
+
+/// A drive turns off somewhere between two samples; a swing that begins there remembers when.
+void PendulumModel::add_switch_timing(Run& run, double sample_s) {
+  const auto enable = channel(*run.recording, "enable");
+  const auto turns = [](double a, double b) { return (a > 0.5) != (b > 0.5); };
+  const bool switched = std::adjacent_find(enable.begin(), enable.end(), turns) != enable.end();
+  if (!switched || run.recording->holdout) return;
+  const double sigma = kSwitchShare * sample_s;
+  run.switch_timing = static_cast<int>(doubtful_.size());
+  doubtful_.push_back({"switch_timing@" + run.recording->name, 0, sigma, -kMostTiming * sigma,
+                       kMostTiming * sigma});
 }
 
 PendulumSettings PendulumModel::settings(const Run& run, std::span<const double> setup) const {
@@ -226,6 +241,7 @@ PendulumSettings PendulumModel::settings(const Run& run, std::span<const double>
     if (doubt != run.doubts.end()) settings.*key.member = setup[doubt->second];
   }
   if (run.timing >= 0) settings.input_late_s = setup[run.timing];
+  if (run.switch_timing >= 0) settings.switch_late_s = setup[run.switch_timing];
   settings.resistance_ohm = std::max(settings.resistance_ohm, 1e-6);
   return settings;
 }

@@ -47,7 +47,8 @@ class PendulumModel final : public RigModel {
     double wander_rad = 0, wander_rad_s = 0;  // 1-sigma of the corrected state before a sample
     std::vector<std::string> channels;
     double longest_step_s = 0;
-    int timing = -1;  // in doubtful_
+    int timing = -1;         // in doubtful_
+    int switch_timing = -1;  // the same; where the drive is turned off or on
     GoalLosses losses;
     std::map<std::string, int> doubts;  // key of the setup to index in doubtful_
 
@@ -60,6 +61,7 @@ class PendulumModel final : public RigModel {
   void add(const DataSet& data_set, const Recording& recording);
   void add_doubts(Run& run);
   void add_timing(Run& run);
+  void add_switch_timing(Run& run, double sample_s);
   void choose_effects();
   sim::PendulumSettings settings(const Run& run, std::span<const double> setup) const;
   void estimate_start(Run& run) const;

@@ -24,6 +24,7 @@ class Search {
     fit_nominal();
     fit_singles();
     fit_pairs();
+    if (options_.crosswise) fit_crosswise();
     polish_best();
     take_noise_of_best();
     fit_contenders();
@@ -43,6 +44,12 @@ class Search {
     Fit nominal;
     nominal.x = layout.stated();
     nominal = settle(nominal);
+    if (options_.restrained) {
+      result_.fits = {nominal};
+      held_ = restrained();
+      Fit other = settle(held_);
+      if (other.objective < nominal.objective) nominal = std::move(other);
+    }
     fitter_.judge(nominal);
     result_.fits = {nominal};
   }
@@ -82,18 +89,68 @@ class Search {
     }
   }
 
-  /// A hypothesis holds the nominal model: one that comes out worse went astray, and is followed
-  /// once more from there.
+  /// A hypothesis holds the nominal model, and a pair each of its members: one that comes out worse
+  /// than what it holds went astray, and is followed once more from there.
   Fit follow_one(const Candidate& candidate) const {
-    const Fit fit = settle(best_size(candidate));
-    const Fit& nominal = result_.fits[0];
-    if (fit.objective <= nominal.objective || candidate.size_coordinate < 0) return fit;
-    Eigen::VectorXd x = candidate.x;
-    x.head(nominal.x.size()) = nominal.x;
-    double& size = x[candidate.size_coordinate];
-    size = candidate.by_log ? size + std::log(kAlmostNothing) : size * kAlmostNothing;
-    const Fit again = fitter_.fit(candidate.effects, x, options_.iterations, fitter_.weights());
-    return again.objective < fit.objective ? again : fit;
+    Fit fit = settle(best_size(candidate));
+    for (const Fit& simpler : result_.fits) {
+      const bool held = simpler.effects.size() < candidate.effects.size() &&
+                        part_of(simpler.effects, candidate.effects);
+      if (!held || fit.objective <= simpler.objective) continue;
+      Eigen::VectorXd x = carried(fitter_.model(), simpler, candidate.effects, candidate.x);
+      make_small(x, candidate.effects, simpler.effects);
+      Fit again = fitter_.fit(candidate.effects, x, options_.iterations, fitter_.weights());
+      if (again.objective < fit.objective) fit = std::move(again);
+    }
+    return fit;
+  }
+
+  /// Effects that are not among `there` at almost no size, where they have one.
+  void make_small(Eigen::VectorXd& x, const Effects& effects, const Effects& there) const {
+    int at = Layout(fitter_.model(), {}).setup_count();
+    const int setup = at;
+    for (const sim::EffectInfo* effect : effects) {
+      if (std::find(there.begin(), there.end(), effect) == there.end()) {
+        const Layout alone(fitter_.model(), {effect});
+        const auto starts = alone.starts(x);
+        const int size = starts.empty() ? -1 : starts[0].size_coordinate;
+        if (size >= 0) {
+          double& value = x[at + size - setup];
+          const bool by_log = alone.of_effect(size - setup).parameter->logarithmic;
+          value = by_log ? value + std::log(kAlmostNothing) : value * kAlmostNothing;
+        }
+      }
+      at += static_cast<int>(effect->parameters.size());
+    }
+  }
+
+  /// The best of all hand what they found, of the setup and of the effects that they share, to
+  /// their rivals, which may have been stuck.
+  void fit_crosswise() {
+    say(0.7, "from one another");
+    constexpr std::size_t kDonors = 2;
+    std::vector<Fit> best = ranked();
+    best.resize(std::min<std::size_t>(best.size(), options_.contenders));
+    // The nominal model among them always: what it can do by itself is no missing physics.
+    best.push_back(result_.fits[0]);
+    std::vector<Candidate> again;
+    for (std::size_t d = 0; d < std::min(kDonors, best.size()); ++d) {
+      if (best[d].effects.empty()) continue;
+      for (std::size_t i = 0; i < best.size(); ++i) {
+        const bool share =
+            std::any_of(best[i].effects.begin(), best[i].effects.end(),
+                        [&](const sim::EffectInfo* e) { return part_of({e}, best[d].effects); });
+        if (i == d || (!share && !best[i].effects.empty())) continue;
+        again.push_back({best[i].effects,
+                         carried(fitter_.model(), best[d], best[i].effects, best[i].x),
+                         {},
+                         0,
+                         -1,
+                         false,
+                         true});
+      }
+    }
+    follow(again, 0.7, 0.78, "from one another", false);
   }
 
   /// Each coordinate tried both ways, with a step that halves where neither helps.
@@ -121,20 +178,30 @@ class Search {
     return fit;
   }
 
-  /// The candidate at the size, of some, that leaves least: a linear step may go too far.
+  /// The candidate at the size, of some, that leaves least: a linear step may go too far. The other
+  /// coordinates stay, or give way as a linear step has it.
   Fit best_size(const Candidate& candidate) const {
     Fit fit;
     fit.effects = candidate.effects;
     fit.x = candidate.x;
-    if (candidate.size_coordinate < 0 || candidate.sized) return fit;
-    const auto weights = fitter_.roomy_weights(result_.fits[0].squares, 0.5);
+    if (candidate.sized) return fit;
+    const auto weights = candidate.weights ? *candidate.weights
+                                           : fitter_.roomy_weights(result_.fits[0].squares, 0.5);
     double least = 1e300;
     for (const double scale : {1.0, 0.4, 0.15, 0.05, 0.01, 1e-3}) {
       Eigen::VectorXd x = candidate.x;
-      double& size = x[candidate.size_coordinate];
-      size = candidate.by_log ? size + std::log(scale) : size * scale;
-      const double objective = fitter_.objective(fit.effects, x, weights);
-      if (objective < least) least = objective, fit.x = x;
+      if (candidate.size_coordinate >= 0) {
+        double& size = x[candidate.size_coordinate];
+        size = candidate.by_log ? size + std::log(scale) : size * scale;
+      } else if (scale < 1) {
+        break;
+      }
+      for (const double share : {0.0, 1.0}) {
+        if (share > 0 && candidate.give.size() == 0) continue;
+        const Eigen::VectorXd at = share > 0 ? x + share * scale * candidate.give : x;
+        const double objective = fitter_.objective(fit.effects, at, weights);
+        if (objective < least) least = objective, fit.x = at;
+      }
     }
     return fit;
   }
@@ -163,9 +230,40 @@ class Search {
     return all;
   }
 
+  /// The nominal model with its setup held near what was stated, and where it follows the
+  /// recordings only. Where physics is missing the setup of the best nominal fit stands in for it,
+  /// tens of sigmas away; and a swing of which it has lost the phase pulls it anywhere.
+  Fit restrained() {
+    constexpr double kPull = 40;  // samples' worth that the recordings pull with
+    Fit fit;
+    fit.x = Eigen::VectorXd::Zero(result_.fits[0].x.size());
+    double samples = 1;
+    for (const Group& g : fitter_.groups()) samples += g.holdout ? 0 : g.samples;
+    for (int round = 0; round < 2; ++round) {
+      const auto until = fitter_.followed_until(fit);
+      Fitter::Weights weights = fitter_.roomy_weights(fitter_.squares(fit, until), 1);
+      weights.until = until;
+      for (double& w : weights.scale) w *= std::sqrt(kPull / samples);
+      fit = fitter_.fit({}, fit.x, 4, weights, 1e-3);
+    }
+    const auto until = fitter_.followed_until(fit);
+    fit.squares = fitter_.squares(fit, until);
+    rough_weights_ = fitter_.roomy_weights(fit.squares, 0.5);
+    rough_weights_.until = until;
+    return fit;
+  }
+
   void fit_singles() {
     say(0.05, "one effect");
     std::vector<Candidate> singles = look_beside(result_.fits[0], options_.fits_of_single);
+    if (options_.restrained) {
+      Fitter::Weights weights = fitter_.roomy_weights(held_.squares, 0.3);
+      weights.until = rough_weights_.until;
+      for (Candidate& c : look_beside(held_, options_.fits_of_single, weights)) {
+        c.weights = &rough_weights_;
+        singles.push_back(std::move(c));
+      }
+    }
     if (static_cast<int>(singles.size()) > options_.singles) {
       std::stable_sort(singles.begin(), singles.end(),
                        [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
@@ -182,10 +280,11 @@ class Search {
     const double nominal = fitter_.objective({}, result_.fits[0].x, weights);
     for_each_task(static_cast<int>(candidates.size()), options_.threads, [&](int i) {
       Candidate& c = candidates[i];
-      const Fit fit =
-          fitter_.fit(c.effects, best_size(c).x, options_.rough_iterations, weights, 1e-3);
-      c.x = fit.x;
-      c.gain = nominal - fit.objective;
+      c.x = fitter_
+                .fit(c.effects, best_size(c).x, options_.rough_iterations,
+                     c.weights ? *c.weights : weights, 1e-3)
+                .x;
+      c.gain = nominal - fitter_.objective(c.effects, c.x, weights);
       c.sized = true;
     });
     std::stable_sort(candidates.begin(), candidates.end(),
@@ -224,7 +323,7 @@ class Search {
     if (static_cast<int>(pairs.size()) > options_.pair_fits) pairs.resize(options_.pair_fits);
     for (Candidate& pair : pairs) put_in_order(pair);
     pairs = most_promising(std::move(pairs), options_.follow_pairs);
-    follow(pairs, 0.5, 0.75, "pairs");
+    follow(pairs, 0.5, 0.7, "pairs");
   }
 
   /// Effects of a pair in the order of their names, as in the catalogue, so that both ways round
@@ -237,6 +336,10 @@ class Search {
     Eigen::VectorXd x(pair.x.size());
     x << pair.x.head(setup), pair.x.tail(second), pair.x.segment(setup, first);
     pair.x = x;
+    if (pair.give.size() > 0) {
+      const Eigen::VectorXd give = pair.give;
+      pair.give << give.head(setup), give.tail(second), give.segment(setup, first);
+    }
     if (pair.size_coordinate >= setup + first) {
       pair.size_coordinate -= static_cast<int>(first);
     }
@@ -276,10 +379,10 @@ class Search {
     say(0.8, "contenders");
     std::vector<Fit> fits = ranked();
     const Fit nominal = result_.fits[0];
-    std::vector<Candidate> again = {{nominal.effects, nominal.x, 0, -1, false}};
+    std::vector<Candidate> again = {{nominal.effects, nominal.x, {}, 0, -1, false}};
     for (const Fit& fit : fits) {
       if (!fit.effects.empty() && static_cast<int>(again.size()) < options_.contenders) {
-        again.push_back({fit.effects, fit.x, 0, -1, false});
+        again.push_back({fit.effects, fit.x, {}, 0, -1, false});
       }
     }
     std::vector<Fit> others;
@@ -321,6 +424,8 @@ class Search {
   Fitter& fitter_;
   const SearchOptions& options_;
   SearchResult result_;
+  Fit held_;                       // restrained()
+  Fitter::Weights rough_weights_;  // where the nominal model follows the recordings
   std::thread::id caller_ = std::this_thread::get_id();
 };
 
@@ -341,6 +446,8 @@ SearchOptions frugal_search() {
   options.polish_steps = 50;
   options.rough_iterations = 0;
   options.looked_at = 0;
+  options.crosswise = false;
+  options.restrained = false;
   return options;
 }
 

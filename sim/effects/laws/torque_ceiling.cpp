@@ -32,7 +32,14 @@ EffectInfo torque_ceiling_effect() {
           .source =
               "current limit of drive electronics, e.g. Dynamixel XL330 e-manual, Current "
               "Limit(38)",
-          .parameters = {{"ceiling", "Nm", 1e-3, 1e3, 1, true, false, {0.45, 0.6, 0.75, 0.9}}},
+          .parameters = {{"ceiling",
+                          "Nm",
+                          1e-3,
+                          1e3,
+                          1,
+                          true,
+                          false,
+                          {0.06, 0.12, 0.2, 0.3, 0.45, 0.6, 0.75, 0.9}}},
           .experiment = "hold growing loads, up to twice the torque seen so far",
           .make_joint = [](std::span<const double> values) {
             return std::make_unique<TorqueCeiling>(values);
