@@ -1,5 +1,6 @@
 #include "tools/diagnose/costly_search.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -22,11 +23,44 @@ constexpr double kRough = 0.3, kCloser = 0.1;
 constexpr int kStartsOfOne = 3;
 constexpr double kNearBest = 0.25;
 constexpr std::size_t kPolished = 2;
-constexpr int kRoughIterations = 4, kCloserIterations = 5, kLastIterations = 5;
+constexpr int kRoughIterations = 5, kCloserIterations = 5, kLastIterations = 5;
 
 /// No coordinate is known better: events in a rollout move by whole ticks, and from one to the
 /// next the squares are ragged, not a bowl. A quarter of a slope's step.
 constexpr double kLeastSigma = 0.005;
+
+/// Levenberg and Marquardt's least squares, damped from the first step on: an undamped one that
+/// goes too far in the valley of soil against effect costs as many rollouts as the way there.
+Fit damped_fit(const Fitter& fitter, Fit fit, int iterations, const Fitter::Weights& weights) {
+  constexpr double kFirstDamping = 0.03, kMore = 8, kLess = 0.2, kEnough = 1e-3;
+  constexpr int kTries = 5;
+  const Layout layout(fitter.model(), fit.effects);
+  Eigen::VectorXd r = fitter.residuals(layout, fit.x, weights);
+  fit.objective = 0.5 * r.squaredNorm();
+  double damping = kFirstDamping;
+  for (int i = 0; i < iterations && layout.size() > 0; ++i) {
+    const Eigen::MatrixXd J = fitter.jacobian(layout, fit.x, r, weights);
+    const Eigen::MatrixXd H = J.transpose() * J;
+    const Eigen::VectorXd slope = J.transpose() * r;
+    double gained = 0;
+    for (int k = 0; k < kTries && gained <= 0; ++k) {
+      Eigen::MatrixXd A = H;
+      A.diagonal() += damping * H.diagonal().cwiseMax(1e-12);
+      const Eigen::VectorXd x = fit.x - A.ldlt().solve(slope);
+      const Eigen::VectorXd there = fitter.residuals(layout, x, weights);
+      const double objective = 0.5 * there.squaredNorm();
+      if (objective < fit.objective) {
+        gained = fit.objective - objective;
+        fit.x = x, r = there, fit.objective = objective;
+        damping *= kLess;
+      } else {
+        damping *= kMore;
+      }
+    }
+    if (gained <= kEnough * fit.objective) break;
+  }
+  return fit;
+}
 
 class CostlySearch {
  public:
@@ -66,7 +100,7 @@ class CostlySearch {
     Fit nominal;
     nominal.x = Layout(fitter_.model(), {}).stated();
     for (const double share : {0.5, kRough}) {
-      nominal = fitter_.fit({}, nominal.x, kCloserIterations, room(nominal, share), 1e-3);
+      nominal = damped_fit(fitter_, nominal, kCloserIterations, room(nominal, share));
     }
     result_.fits = {settle(nominal)};
     fitter_.judge(result_.fits[0]);
@@ -80,8 +114,8 @@ class CostlySearch {
   }
 
   Fit settle(const Fit& fit) const {
-    const Fit closer = fitter_.fit(fit.effects, fit.x, kCloserIterations, room(fit, kCloser), 1e-3);
-    return fitter_.fit(fit.effects, closer.x, kLastIterations, fitter_.weights());
+    const Fit closer = damped_fit(fitter_, fit, kCloserIterations, room(fit, kCloser));
+    return damped_fit(fitter_, closer, kLastIterations, fitter_.weights());
   }
 
   /// Each coordinate tried both ways, with a step that halves where neither helps: events in a
@@ -172,7 +206,7 @@ class CostlySearch {
     std::vector<Fit> fits(starts.size());
     for_all(starts.size(), from, to, what, [&](std::size_t i) {
       const Fit at = base.least_along(base.beside(starts[i]));
-      fits[i] = fitter_.fit(at.effects, at.x, kRoughIterations, look_weights_, 1e-3);
+      fits[i] = damped_fit(fitter_, at, kRoughIterations, look_weights_);
       fits[i].squares = fitter_.squares(fits[i]);
     });
     for (Fit& fit : fits) {
