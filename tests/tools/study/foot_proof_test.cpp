@@ -28,7 +28,7 @@ TEST_CASE("what is left is a mean over the channels that the nominal model misse
 
 TEST_CASE("an answer is right where it names just what was concealed, at its joint") {
   FootProof proof;
-  proof.asked = {"toe", "backlash", "toe", {{"gap", 0.01}}, "sinkage"};
+  proof.asked = {"toe", "backlash", "toe", {{"gap", 0.01}}, "sinkage", {}, false, ""};
   proof.verdict.verdict = "missing_physics";
   proof.verdict.named = {"backlash"};
   proof.verdict.effects = {{"backlash", 0.9, {}, "toe"}};
