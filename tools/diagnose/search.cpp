@@ -25,7 +25,6 @@ class Search {
     fit_singles();
     fit_pairs();
     if (options_.crosswise) fit_crosswise();
-    polish_best();
     take_noise_of_best();
     fit_contenders();
     look_at_rest();
@@ -69,8 +68,8 @@ class Search {
     std::atomic<int> done{0};
     for_each_task(static_cast<int>(candidates.size()), options_.threads, [&](int i) {
       fits[i] = anew ? follow_one(candidates[i])
-                     : polish(fitter_.fit(candidates[i].effects, candidates[i].x,
-                                          options_.iterations, fitter_.weights()));
+                     : fitter_.fit(candidates[i].effects, candidates[i].x, options_.iterations,
+                                   fitter_.weights());
       fitter_.judge(fits[i]);
       const double share = ++done / static_cast<double>(candidates.size());
       if (std::this_thread::get_id() == caller_) say(from + (to - from) * share, what);
@@ -151,31 +150,6 @@ class Search {
       }
     }
     follow(again, 0.7, 0.78, "from one another", false);
-  }
-
-  /// Each coordinate tried both ways, with a step that halves where neither helps.
-  Fit polish(Fit fit) const {
-    constexpr double kFirst = 0.1, kLast = 2e-4;
-    if (options_.polish_steps <= 0 || fit.effects.empty()) return fit;
-    const auto weights = fitter_.weights();
-    double least = fitter_.objective(fit.effects, fit.x, weights);
-    int left = options_.polish_steps;
-    for (double step = kFirst; step > kLast && left > 0;) {
-      bool better = false;
-      for (Eigen::Index i = 0; i < fit.x.size() && left > 0; ++i) {
-        for (const double side : {1.0, -1.0}) {
-          Eigen::VectorXd x = fit.x;
-          x[i] += side * step;
-          const double objective = fitter_.objective(fit.effects, x, weights);
-          --left;
-          if (!(objective < least)) continue;
-          least = objective, fit.x = x, better = true;
-          break;
-        }
-      }
-      if (!better) step *= 0.5;
-    }
-    return fit;
   }
 
   /// The candidate at the size, of some, that leaves least: a linear step may go too far. The other
@@ -346,25 +320,6 @@ class Search {
     std::swap(pair.effects[0], pair.effects[1]);
   }
 
-  /// Of the best: what they leave is to stand for the noise.
-  void polish_best() {
-    if (options_.polish_steps <= 0) return;
-    constexpr std::size_t kBest = 4;
-    say(0.76, "best fits");
-    std::vector<Fit> fits = ranked();
-    std::erase_if(fits, [](const Fit& f) { return f.effects.empty(); });
-    if (fits.size() > kBest) fits.resize(kBest);
-    for_each_task(static_cast<int>(fits.size()), options_.threads, [&](int i) {
-      fits[i] = polish(fits[i]);
-      fitter_.judge(fits[i]);
-    });
-    for (Fit& fit : fits) {
-      for (Fit& known : result_.fits) {
-        if (known.effects == fit.effects) known = fit;
-      }
-    }
-  }
-
   std::vector<Fit> ranked() const {
     std::vector<Fit> fits = result_.fits;
     std::stable_sort(fits.begin(), fits.end(), [this](const Fit& a, const Fit& b) {
@@ -434,22 +389,6 @@ void Search::take_noise_of_best() {
 }
 
 }  // namespace
-
-SearchOptions frugal_search() {
-  SearchOptions options;
-  options.fits_of_single = 1;
-  options.pair_fits = 6;
-  options.iterations = 8;
-  options.singles = 10;
-  options.pair_bases = 2;
-  options.contenders = 8;
-  options.polish_steps = 50;
-  options.rough_iterations = 0;
-  options.looked_at = 0;
-  options.crosswise = false;
-  options.restrained = false;
-  return options;
-}
 
 double first_rank(const Fitter& fitter, const Fit& fit) {
   double likelihood = 0, samples = 0;

@@ -25,13 +25,7 @@ struct SearchOptions {
   bool crosswise = true;  // rivals are fitted again from where the best are
   int looked_at = 4;      // of which it is asked what one effect more would gain
   int contenders = 16;    // fitted anew with the noise as the best of them leaves it
-  /// Steps of a search without slopes after each fit of a contender: where events in a rollout,
-  /// such as an end stop that is met a tick later, make its squares ragged. 0: none.
-  int polish_steps = 0;
 };
-
-/// For rigs whose rollout takes a good part of a second.
-SearchOptions frugal_search();
 
 struct SearchResult {
   std::vector<Fit> fits;  // judged with the same groups; the first is the nominal model
