@@ -12,22 +12,23 @@ namespace {
 constexpr double kNone = 0.30, kSingle = 0.38, kPair = 0.17, kUnknown = 0.15;
 /// Evidence is counted down by this: samples that look independent share one model's errors, and
 /// a fitted integrator is not the plant. From the calibration on concealed plants (README).
-constexpr double kTemperature = 2.0;
+constexpr double kTemperature = 3.0;
 /// And the more so the more there is to explain: a model's own errors grow with the effect. A
-/// thousandth of the best's evidence is worth three in a logarithm of odds.
-constexpr double kRelative = 1.0 / 3000;
+/// thousandth of the best's evidence is worth ten at most in a logarithm of odds.
+constexpr double kRelative = 1.0 / 10000;
 /// No model is the plant: this much log likelihood per independent sample proves nothing.
 constexpr double kTolerated = 0.006;
 constexpr double kLeastGain = 2, kNoFinding = 4;
 /// Of the order in what the nominal model leaves (structure()), what of the list leaves this share
-/// is as likely as not to miss something that is not in the list; e times as likely for each spread.
-constexpr double kLeftByKnown = 0.43, kLeftSpread = 0.05;
+/// is as likely as not to miss something that is not in the list; e times as likely for each
+/// spread.
+constexpr double kLeftByKnown = 0.45, kLeftSpread = 0.05;
 /// A nominal model that leaves so much, and nothing that takes it away: the same.
-constexpr double kUnexplained = 0.17, kUnexplainedSpread = 0.03;
+constexpr double kUnexplained = 0.2, kUnexplainedSpread = 0.03;
 /// Where it leaves less, shares of it say nothing.
 constexpr double kLeastStructure = 0.004;
 /// Share of answers that are wrong although the evidence is overwhelming, on concealed plants.
-constexpr double kDoubt = 0.12;
+constexpr double kDoubt = 0.07;
 
 /// A held-out channel of one recording decides no more than this, in log likelihood.
 constexpr double kMostOfOneGroup = 15;

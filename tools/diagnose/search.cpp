@@ -31,7 +31,6 @@ class Search {
     polish_best();
     take_noise_of_best();
     fit_contenders();
-    look_at_rest();
     say(1, "done");
     return std::move(result_);
   }
@@ -402,28 +401,6 @@ class Search {
     for (Fit& fit : others) result_.fits.push_back(std::move(fit));
   }
 
-  /// What one effect more would take from what the best leave.
-  void look_at_rest() {
-    say(0.98, "what is left");
-    std::vector<Fit*> best;
-    for (Fit& fit : result_.fits) {
-      if (listed(fit.effects)) best.push_back(&fit);
-    }
-    std::stable_sort(best.begin() + 1, best.end(),
-                     [](const Fit* a, const Fit* b) { return a->log_evidence > b->log_evidence; });
-    if (static_cast<int>(best.size()) > options_.looked_at) best.resize(options_.looked_at);
-    for (Fit* fit : best) {
-      fit->more_listed = fit->more_unlisted = 0;
-      for (const Candidate& c : look_beside(*fit, 1, fitter_.weights())) {
-        double& most = c.effects.back()->listed ? fit->more_listed : fit->more_unlisted;
-        if (c.gain > most) {
-          most = c.gain;
-          (c.effects.back()->listed ? fit->next_listed : fit->next_unlisted) = c.effects.back();
-        }
-      }
-    }
-  }
-
   Fitter& fitter_;
   const SearchOptions& options_;
   SearchResult result_;
@@ -496,7 +473,6 @@ SearchOptions frugal_search() {
   options.contenders = 8;
   options.polish_steps = 50;
   options.rough_iterations = 0;
-  options.looked_at = 0;
   options.crosswise = false;
   options.restrained = false;
   return options;
