@@ -20,6 +20,8 @@ constexpr int kRivals = 6;
 /// Log likelihood by which a rival may fit worse, no simpler for that, and not be told apart: as a
 /// chi-square of one number tells at 99 %.
 constexpr double kAlike = 3.5;
+/// And no less probable than this share of the best, all told.
+constexpr double kLeastInSet = 0.01;
 /// Of a pair's probability, the share of the member that matters more.
 constexpr double kLeader = 0.85;
 
@@ -41,6 +43,7 @@ class Diagnosis {
       // All starts are followed, and long valleys (k_phi against n) to their end.
       search_options.iterations = 60;
       search_options.fits_of_single = 8;
+      search_options.rough_iterations = 0;
     }
     result_ = search(fitter_, search_options);
     judgement_ = judge(fitter_, result_);
@@ -174,7 +177,7 @@ bool Diagnosis::hardly_worse(const Standing& rival, const Standing& best) {
 bool Diagnosis::alike(const Standing& rival, const Standing& best) const {
   const Effects& effects = rival.fit->effects;
   if (effects.empty() || !rival.listed || effects.size() > best.fit->effects.size() ||
-      part_of(best.fit->effects, effects)) {
+      part_of(best.fit->effects, effects) || rival.probability < kLeastInSet * best.probability) {
     return false;
   }
   return hardly_worse(rival, best);

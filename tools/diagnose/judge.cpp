@@ -23,6 +23,13 @@ constexpr double kLeastGain = 2, kNoFinding = 4;
 /// is as likely as not to miss something that is not in the list; e times as likely for each
 /// spread.
 constexpr double kLeftByKnown = 0.45, kLeftSpread = 0.05;
+/// What explains little but foretells recordings that it was not fitted to is no chance: e times
+/// less likely to miss the point for each so much of their log likelihood.
+constexpr double kHeldOutProof = 5;
+/// The same of the logarithm by which their error falls, in the mean over channels and recordings,
+/// however few of their samples are independent. By chance it falls by less than the first of
+/// these.
+constexpr double kForetold = 0.1, kForetoldSpread = 0.04;
 /// A nominal model that leaves so much, and nothing that takes it away: the same.
 constexpr double kUnexplained = 0.2, kUnexplainedSpread = 0.03;
 /// Where it leaves less, shares of it say nothing.
@@ -47,6 +54,21 @@ double holdout_gain(const Fitter& fitter, const Fit& fit, const Fit& none) {
     sum += std::clamp(gain, -kMostOfOneGroup, kMostOfOneGroup);
   }
   return sum;
+}
+
+/// Mean over held-out recordings and channels of the logarithm by which their error is smaller.
+double foretold(const Fitter& fitter, const Fit& fit, const Fit& none) {
+  double sum = 0, count = 0;
+  for (std::size_t g = 0; g < fitter.groups().size(); ++g) {
+    const Group& group = fitter.groups()[g];
+    if (!group.holdout || group.samples < 1) continue;
+    const double floor = group.noise * group.noise;
+    const double before = std::max(none.squares[g] / group.samples, floor);
+    const double after = std::max(fit.squares[g] / group.samples, floor);
+    sum += 0.5 * std::log(before / after);
+    count += 1;
+  }
+  return count > 0 ? sum / count : 0;
 }
 
 /// Sum over groups of the logarithm of how much smaller the variance became; and how much it could.
@@ -125,7 +147,9 @@ void suspect_unknown(std::vector<Standing>& standings, double none) {
     if (s.fit->effects.empty()) {
       s.insufficient = 1 / (1 + std::exp((kUnexplained - none) / kUnexplainedSpread));
     } else if (s.listed && none > kLeastStructure) {
-      s.insufficient = 1 / (1 + std::exp((kLeftByKnown - s.left) / kLeftSpread));
+      const double proof = std::max(
+          {s.holdout_gain / kHeldOutProof, (s.foretold - kForetold) / kForetoldSpread, 0.0});
+      s.insufficient = 1 / (1 + std::exp((kLeftByKnown - s.left) / kLeftSpread + proof));
     }
   }
 }
@@ -169,6 +193,7 @@ Judgement judge(const Fitter& fitter, const SearchResult& result) {
                0};
     const Gains g = gains(fitter, fit, none);
     s.explained = g.possible > 0 ? g.made / g.possible : 1;
+    s.foretold = foretold(fitter, fit, none);
     s.left = whole > 0 ? structure(fitter, fit) / whole : 0;
     score.push_back(tempered(s, none, tolerance, most) - worse_held_out(fitter, result, fit) +
                     log_prior(fit, singles, pairs, stand_ins));

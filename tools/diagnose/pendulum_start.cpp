@@ -59,36 +59,59 @@ struct StartOfPath {
   double speed_doubt = 0;  // 1 sigma; 0: no polynomial fits
 };
 
+/// A polynomial in time over its span, by least squares.
+struct Polynomial {
+  Eigen::VectorXd c, sigma;  // coefficients and their deviations for noise of 1
+  double squares = 0;
+  double freedom = 0;
+};
+
+Polynomial fit_polynomial(std::span<const double> time_s, std::span<const double> values,
+                          double span_s, int order) {
+  std::vector<std::size_t> there;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (std::isfinite(values[i])) there.push_back(i);
+  }
+  const auto rows = static_cast<Eigen::Index>(there.size());
+  Polynomial p;
+  p.freedom = static_cast<double>(rows - order - 1);
+  if (p.freedom < 2) return p;
+  Eigen::MatrixXd A(rows, order + 1);
+  Eigen::VectorXd y(rows);
+  for (Eigen::Index r = 0; r < rows; ++r) {
+    const std::size_t i = there[static_cast<std::size_t>(r)];
+    y[r] = values[i];
+    for (int k = 0; k <= order; ++k) A(r, k) = std::pow((time_s[i] - time_s[0]) / span_s, k);
+  }
+  p.c = A.householderQr().solve(y);
+  p.squares = (y - A * p.c).squaredNorm();
+  p.sigma = (A.transpose() * A).inverse().diagonal().cwiseSqrt();
+  return p;
+}
+
+/// What tells the speed best of polynomials that leave the noise only, and of which the next term
+/// would be none.
 StartOfPath start_of_path(std::span<const double> time_s, std::span<const double> values,
                           double noise) {
-  constexpr std::array kSamples = {6, 9, 14, 20, 30, 45, 70};
+  constexpr std::array<std::size_t, 6> kSamples = {6, 9, 14, 20, 30, 45};
+  constexpr double kNone = 1.3;  // deviations
   StartOfPath best;
   if (!(noise > 0)) return best;
-  for (const int n : kSamples) {
-    if (n > static_cast<int>(values.size())) break;
-    const double span_s = time_s[static_cast<std::size_t>(n - 1)] - time_s[0];
-    for (int order = 1; order <= 3 && span_s > 0; ++order) {
-      std::vector<int> there;
-      for (int i = 0; i < n; ++i) {
-        if (std::isfinite(values[static_cast<std::size_t>(i)])) there.push_back(i);
+  for (const std::size_t n : kSamples) {
+    if (n > values.size()) break;
+    const double span_s = time_s[n - 1] - time_s[0];
+    Polynomial p = fit_polynomial(time_s.first(n), values.first(n), span_s, 1);
+    for (int order = 1; order <= 3 && p.freedom >= 2; ++order) {
+      Polynomial next = fit_polynomial(time_s.first(n), values.first(n), span_s, order + 1);
+      const double chi2 = p.squares / (noise * noise) / p.freedom;
+      const bool straight =
+          next.freedom < 2 || std::abs(next.c[order + 1]) < kNone * noise * next.sigma[order + 1];
+      const double doubt = noise * p.sigma[1] / span_s;
+      const bool better = best.speed_doubt == 0 || doubt < best.speed_doubt;
+      if (straight && better && chi2 < 1 + std::sqrt(2 / p.freedom)) {
+        best = {p.c[0], p.c[1] / span_s, doubt};
       }
-      const auto rows = static_cast<Eigen::Index>(there.size());
-      if (rows < order + 3) continue;
-      Eigen::MatrixXd A(rows, order + 1);
-      Eigen::VectorXd y(rows);
-      for (Eigen::Index r = 0; r < rows; ++r) {
-        const auto i = static_cast<std::size_t>(there[static_cast<std::size_t>(r)]);
-        y[r] = values[i];
-        for (int k = 0; k <= order; ++k) A(r, k) = std::pow((time_s[i] - time_s[0]) / span_s, k);
-      }
-      const Eigen::VectorXd c = A.householderQr().solve(y);
-      const double freedom = static_cast<double>(rows - order - 1);
-      const double chi2 = (y - A * c).squaredNorm() / (noise * noise) / freedom;
-      if (chi2 > 1 + 2 * std::sqrt(2 / freedom)) continue;
-      const Eigen::MatrixXd inverse = (A.transpose() * A).inverse();
-      const double doubt = noise * std::sqrt(inverse(1, 1)) / span_s;
-      if (best.speed_doubt > 0 && doubt >= best.speed_doubt) continue;
-      best = {c[0], c[1] / span_s, doubt};
+      p = std::move(next);
     }
   }
   return best;
