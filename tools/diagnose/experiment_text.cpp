@@ -31,12 +31,17 @@ std::string odds(double log10_odds) {
   return std::to_string(std::lround(digit * std::round(to_one / digit))) + " to one";
 }
 
+std::string meaning(const std::string& hypothesis) {
+  if (hypothesis == "none") return "nothing missing";
+  if (hypothesis.find("unlisted_") == std::string::npos) return hypothesis;
+  return "something that is not in the list (stand-in: " + hypothesis + ")";
+}
+
 std::string outcome_text(const PlannedExperiment& plan, const ExpectedOutcome& outcome) {
   const std::string unit = channel_unit(plan.set.rig, plan.telling.channel);
-  const std::string name = outcome.hypothesis == "none" ? "nothing missing" : outcome.hypothesis;
   return rounded(outcome.reading, outcome.reading_sigma) + " +- " +
          format_significant(outcome.reading_sigma, 2) + (unit.empty() ? "" : " " + unit) +
-         " means " + name;
+         " means " + meaning(outcome.hypothesis);
 }
 
 std::string span_text(double from_s, double to_s) {
@@ -99,7 +104,7 @@ std::string experiment_sentence(const PlannedExperiment& plan) {
   if (plan.open_loop) {
     std::string names;
     for (const ExpectedOutcome& o : plan.outcomes) {
-      names += (names.empty() ? "" : " and ") + o.hypothesis;
+      names += (names.empty() ? "" : " and ") + meaning(o.hypothesis);
     }
     return plan.action + ", by the torque of " + kExperimentTable + ": in " + plan.telling.channel +
            " " + names + apart;

@@ -119,10 +119,11 @@ class Motions {
     const double rate_Hz = (slower ? 0.4 : 0.9) * s_.speed_rad_s / (2 * pi * reach);
     const int count = std::max(1, static_cast<int>(time_s * rate_Hz));
     path.sine(reach, rate_Hz, count).hold(kSettle_s);
-    motions_.push_back({"a sine of " + number(reach) + " rad about " + number(middle_) +
-                            " rad at " + number(rate_Hz) + " Hz, " + std::to_string(count) +
-                            " cycles without a pause",
-                        path, 0, slower});
+    motions_.push_back(
+        {"a sine of " + number(reach) + " rad about " + number(middle_) + " rad at " +
+             number(rate_Hz) + " Hz, " +
+             (count == 1 ? "one cycle" : std::to_string(count) + " cycles without a pause"),
+         path, 0, slower});
   }
 
   /// Where gravity pulls most.
