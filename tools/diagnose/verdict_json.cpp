@@ -90,22 +90,21 @@ Json unknown_json(const std::optional<UnknownTerm>& term) {
           {"holdout", errors_json(term->holdout)}};
 }
 
-Json planned_json(const std::optional<PlannedExperiment>& plan) {
-  if (!plan) return nullptr;
+Json planned_json(const PlannedExperiment& plan) {
   Json outcomes = Json::array();
-  for (const ExpectedOutcome& o : plan->outcomes) {
-    if (plan->open_loop) break;
+  for (const ExpectedOutcome& o : plan.outcomes) {
+    if (plan.open_loop) break;
     outcomes.push_back(
         {{"hypothesis", o.hypothesis}, {"reading", o.reading}, {"sigma", o.reading_sigma}});
   }
-  const TellingReading& t = plan->telling;
+  const TellingReading& t = plan.telling;
   Json reading = {{"channel", t.channel}, {"start", t.from_s}, {"end", t.to_s}};
   if (t.change) reading["less"] = {{"start", t.earlier_from_s}, {"end", t.earlier_to_s}};
   reading["sigmas"] = t.sigmas;
-  return {{"action", plan->action},         {"sigmas", plan->sigmas},
-          {"log10_odds", plan->log10_odds}, {"sigmas_if_given_again", plan->again_sigmas},
-          {"reading", std::move(reading)},  {"outcomes", std::move(outcomes)},
-          {"looked_at", plan->looked_at}};
+  return {{"action", plan.action},         {"sigmas", plan.sigmas},
+          {"log10_odds", plan.log10_odds}, {"sigmas_if_given_again", plan.again_sigmas},
+          {"reading", std::move(reading)}, {"outcomes", std::move(outcomes)},
+          {"looked_at", plan.looked_at}};
 }
 
 Json setup_json(const std::vector<SetupEstimate>& setup) {
@@ -147,9 +146,11 @@ Json verdict_json(const Verdict& verdict) {
     json["ablation"].push_back({{"model", row.model}, {"holdout", errors_json(row.holdout)}});
   }
   json["unknown_term"] = unknown_json(verdict.unknown_term);
-  json["planned_experiment"] = planned_json(verdict.planned_experiment);
   json["setup"] = setup_json(verdict.setup);
   json["data_quality"] = quality_json(verdict.quality);
+  if (verdict.planned_experiment) {
+    json["planned_experiment"] = planned_json(*verdict.planned_experiment);
+  }
   return json;
 }
 
