@@ -96,7 +96,8 @@ struct Verdict {
   std::optional<UnknownTerm> unknown_term;
 
   // Beyond verdict.json's required keys.
-  std::optional<PlannedExperiment> planned_experiment;  // what next_experiment says, where simulated
+  std::optional<PlannedExperiment>
+      planned_experiment;          // what next_experiment says, where simulated
   std::vector<std::string> named;  // effects of the winning model, none for "none"
   std::vector<SetupEstimate> setup;
   std::vector<QualityNote> quality;
