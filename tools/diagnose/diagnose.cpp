@@ -32,8 +32,8 @@ constexpr double kWide = 5.0, kLeastWide = 0.03;
 
 class Diagnosis {
  public:
-  Diagnosis(const RigModel& model, const DiagnoseOptions& options)
-      : model_(model), options_(options), fitter_(model) {}
+  Diagnosis(const std::vector<DataSet>& sets, const RigModel& model, const DiagnoseOptions& options)
+      : sets_(sets), model_(model), options_(options), fitter_(model) {}
 
   Verdict run() {
     SearchOptions search_options = model_.costly() ? frugal_search() : SearchOptions();
@@ -78,6 +78,7 @@ class Diagnosis {
   void describe();
   EffectFinding finding(const sim::EffectInfo* effect) const;
 
+  const std::vector<DataSet>& sets_;
   const RigModel& model_;
   const DiagnoseOptions& options_;
   Fitter fitter_;
@@ -303,7 +304,7 @@ void Diagnosis::measure() {
 }
 
 void Diagnosis::describe() {
-  verdict_.next_experiment = next_experiment(judgement_, verdict_);
+  plan_next_experiment(fitter_, sets_, judgement_, options_.threads, verdict_);
   write_evidence(judgement_, fitter_, none(), *winner_, verdict_);
 }
 
@@ -312,7 +313,7 @@ void Diagnosis::describe() {
 Verdict diagnose(const std::vector<DataSet>& data_sets, const DiagnoseOptions& options) {
   const auto model = make_rig_model(data_sets);
   try {
-    Verdict verdict = Diagnosis(*model, options).run();
+    Verdict verdict = Diagnosis(data_sets, *model, options).run();
     name_joints(verdict);
     for (const DataSet& data_set : data_sets) {
       if (data_set.rig == RigKind::kFootHil) continue;  // by our own recorder

@@ -10,14 +10,9 @@ namespace {
 
 /// Shares of what is met, by the contract's section 5; the undecidable ones are effects too.
 constexpr double kNone = 0.30, kSingle = 0.38, kPair = 0.17, kUnknown = 0.15;
-/// Evidence is counted down by this: samples that look independent share one model's errors, and
-/// a fitted integrator is not the plant. From the calibration on concealed plants (README).
-constexpr double kTemperature = 3.0;
 /// And the more so the more there is to explain: a model's own errors grow with the effect. A
 /// thousandth of the best's evidence is worth ten at most in a logarithm of odds.
 constexpr double kRelative = 1.0 / 10000;
-/// No model is the plant: this much log likelihood per independent sample proves nothing.
-constexpr double kTolerated = 0.006;
 constexpr double kLeastGain = 2, kNoFinding = 4;
 /// Of the order in what the nominal model leaves (structure()), what of the list leaves this share
 /// is as likely as not to miss something that is not in the list; e times as likely for each
