@@ -243,8 +243,10 @@ void Pendulum::evaluate_law(double t_s) {
 double Pendulum::drive_torque_Nm() {
   if (s_.law == PendulumLaw::kDuty) {
     double volt = volt_;
-    for (const JointEffect* effect : stages_.supply)
-      volt = effect->supply_V(volt, current_A_, duty_);
+    // What was measured has sagged already.
+    for (const JointEffect* effect : stages_.supply) {
+      if (!supply_.present()) volt = effect->supply_V(volt, current_A_, duty_);
+    }
     const double share = s_.kt_Nm_A / s_.resistance_ohm;
     command_Nm_ = on_share_ * share * (duty_ * volt - s_.kt_Nm_A * w_);
     current_A_ = command_Nm_ / s_.kt_Nm_A;

@@ -6,6 +6,7 @@
 
 #include "tools/cli/commands.h"
 #include "tools/diagnose/diagnose.h"
+#include "tools/diagnose/experiment_text.h"
 #include "tools/diagnose/verdict_text.h"
 #include "tools/diagnose/write_answer.h"
 #include "tools/run/errors.h"
@@ -66,8 +67,21 @@ Verdict diagnose_with_progress(const std::vector<DataSet>& sets, const DiagnoseR
   }
 }
 
+/// What is read must not be replaced by what is written.
+void refuse_own_input(const DiagnoseRequest& request) {
+  for (const fs::path& file : request.data_sets) {
+    std::error_code error;
+    const fs::path own = request.out / kExperimentFile;
+    if (fs::exists(own, error) && fs::equivalent(file, own, error)) {
+      throw UserError("--out " + request.out.string() + ": would replace " + file.string() +
+                      ", which is to be read; choose another folder");
+    }
+  }
+}
+
 void run(const DiagnoseRequest& request) {
   const std::vector<DataSet> sets = read_all(request.data_sets);
+  refuse_own_input(request);
   AnswerFolder folder(request.out, kVerdictFile, request.force);
   const Verdict verdict = diagnose_with_progress(sets, request);
   write_answer(verdict, sets, folder);
@@ -102,7 +116,8 @@ void add_diagnose_command(CLI::App& app, Invocation& invocation) {
   command->add_flag("--force", request->force, "Replace an earlier answer in DIR");
   command->add_flag("--quiet", request->quiet, "Show no progress");
   command->footer(
-      "Writes verdict.json, report.html, improved.toml, residuals.csv and hypotheses.csv.\n"
+      "Writes verdict.json, report.html, improved.toml, residuals.csv and hypotheses.csv; where\n"
+      "recordings do not decide, next_experiment.toml and .csv: what to play on the machine.\n"
       "Exit status: 0 whatever the verdict, 2 bad input, 3 could not finish.\n"
       "Examples:\n"
       "  hoof diagnose tests/data/diagnose/servo_pendulum_xl330/dataset.toml --out runs/xl330\n"

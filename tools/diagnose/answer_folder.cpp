@@ -69,6 +69,10 @@ void AnswerFolder::commit() {
   // An answer of old and new files must not look whole, should this be cut off in the middle.
   fs::remove(folder_ / last_, error);
   if (error) fail(folder_ / last_, "replace this file", error);
+  for (const std::string& name : left_out_) {
+    fs::remove(folder_ / name, error);
+    if (error) fail(folder_ / name, "remove this file of an earlier answer", error);
+  }
   std::stable_partition(names_.begin(), names_.end(),
                         [this](const std::string& name) { return name != last_; });
   for (const std::string& name : names_) {

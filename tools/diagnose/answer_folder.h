@@ -27,6 +27,8 @@ class AnswerFolder {
 
   /// @param name without folders
   void write(const std::string& name, std::string_view text);
+  /// A file that an earlier answer may have and this one has not: removed by commit().
+  void leave_out(const std::string& name) { left_out_.push_back(name); }
   void commit();
 
  private:
@@ -35,7 +37,7 @@ class AnswerFolder {
   std::filesystem::path folder_, working_;
   std::string last_;
   bool made_folder_ = false;
-  std::vector<std::string> names_;
+  std::vector<std::string> names_, left_out_;
   std::optional<FolderLock> lock_;  // tells others that this answer is still being written
 };
 

@@ -35,6 +35,8 @@ struct Recording {
   std::string name;            // as the data set names its file: "data", or "session"
   std::filesystem::path path;  // where that is
   bool holdout = false;
+  /// An experiment that is yet to be made: inputs are what to play, other channels mean nothing.
+  bool planned = false;
   Setup setup;                 // the data set's, with this recording's overrides
   std::vector<double> time_s;  // strictly increasing, within the window
   /// By rig channel ("position"), each as long as time_s, SI; NaN: missing sample. Without "time".

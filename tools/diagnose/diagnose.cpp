@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/diagnose/candidates.h"
 #include "tools/diagnose/costly_search.h"
 #include "tools/diagnose/evidence_text.h"
 #include "tools/diagnose/foot_effects.h"
@@ -17,19 +18,23 @@ namespace {
 
 /// Rivals in the table of ablation.
 constexpr int kRivals = 6;
-/// Hypotheses are told apart where one is this probable among those that name physics.
-constexpr double kNamed = 0.5;
-/// Members of a set that cannot be told apart.
-constexpr double kInSet = 0.12;
+/// Log likelihood by which a rival may fit worse, no simpler for that, and not be told apart: as a
+/// chi-square of one number tells at 99 %.
+constexpr double kAlike = 3.5;
+/// And no less probable than this share of the best, all told.
+constexpr double kLeastInSet = 0.01;
+/// Of a pair's probability, the share of the member that matters more.
+constexpr double kLeader = 0.85;
 
-/// Half of a 95 % interval in standard deviations of the fit. Twice the normal's: a model's own
-/// errors, which look like no noise, are as large again (README, concealed plants).
-constexpr double kWide = 4.0;
+/// Half of a 95 % interval: this many standard deviations of the fit and, whatever those say, a
+/// share of the number itself (or radians). A model's own errors look like no noise and are larger
+/// than what it makes of the noise (concealed plants of hoof conceal, seed 811).
+constexpr double kWide = 5.0, kLeastWide = 0.03;
 
 class Diagnosis {
  public:
-  Diagnosis(const RigModel& model, const DiagnoseOptions& options)
-      : model_(model), options_(options), fitter_(model) {}
+  Diagnosis(const std::vector<DataSet>& sets, const RigModel& model, const DiagnoseOptions& options)
+      : sets_(sets), model_(model), options_(options), fitter_(model) {}
 
   Verdict run() {
     result_ = searched();
@@ -55,17 +60,18 @@ class Diagnosis {
 
   SearchResult searched();
   void decide();
-  /// Square of the marginal: a member that is in every likely hypothesis gets nearly all.
-  double sure(const sim::EffectInfo* effect) const {
-    const double marginal = judgement_.marginals.at(std::string(effect->name));
-    return marginal * marginal;
-  }
+  /// Of a pair the member that matters more: the more probable of all, then the better alone.
+  const sim::EffectInfo* leader(const Fit& fit) const;
+  /// A rival that leaves hardly more than the best and is not the best with something added.
+  bool alike(const Standing& rival, const Standing& best) const;
+  static bool hardly_worse(const Standing& rival, const Standing& best);
   void name_effects();
   void say_where();
   void measure();
   void describe();
   EffectFinding finding(const sim::EffectInfo* effect) const;
 
+  const std::vector<DataSet>& sets_;
   const RigModel& model_;
   const DiagnoseOptions& options_;
   Fitter fitter_;
@@ -89,22 +95,26 @@ SearchResult Diagnosis::searched() {
     // All starts are followed, and long valleys (k_phi against n) to their end.
     search_options.iterations = 60;
     search_options.fits_of_single = 8;
+    search_options.rough_iterations = 0;
   }
   return search(fitter_, search_options);
 }
 
 void Diagnosis::decide() {
-  // What is written sums to one: a pair's probability is shared out by how sure each member is.
+  // What is written sums to one: of a pair's probability most goes to the member that leads.
   auto& p = verdict_.probabilities;
   p["none"] = judgement_.none;
   p["unknown"] = judgement_.unknown;
   for (const auto& [name, marginal] : judgement_.marginals) p[name] = 0;
   for (const Standing& s : judgement_.standings) {
     if (s.fit->effects.empty() || !s.listed) continue;
-    double sum = 0;
-    for (const auto* e : s.fit->effects) sum += sure(e);
+    const double rest = s.fit->effects.size() > 1
+                            ? (1 - kLeader) / static_cast<double>(s.fit->effects.size() - 1)
+                            : 0;
+    const sim::EffectInfo* first = leader(*s.fit);
     for (const auto* e : s.fit->effects) {
-      p[std::string(e->name)] += s.probability * (sum > 0 ? sure(e) / sum : 0);
+      const double share = s.fit->effects.size() == 1 ? 1 : e == first ? kLeader : rest;
+      p[std::string(e->name)] += share * s.probability;
     }
   }
 
@@ -125,23 +135,65 @@ void Diagnosis::decide() {
     return;
   }
   const Standing* best = best_listed();
-  winner_ = best->fit;
-  verdict_.verdict = "missing_physics";
-  // Those that stand beside the best without being more than it with something added.
-  std::vector<std::string> set;
-  if (best->probability < kNamed * missing) {
-    for (const Standing& s : judgement_.standings) {
-      if (s.fit->effects.empty() || !s.listed || s.probability < kInSet * missing) continue;
-      for (const sim::EffectInfo* e : s.fit->effects) {
-        const std::string name(e->name);
-        if (std::find(set.begin(), set.end(), name) == set.end()) set.push_back(name);
-      }
+  // What does as well without one of its effects does not need it.
+  for (const Standing& s : judgement_.standings) {
+    const bool simpler = !s.fit->effects.empty() && s.listed &&
+                         s.fit->effects.size() < best->fit->effects.size() &&
+                         part_of(s.fit->effects, best->fit->effects);
+    if (simpler && hardly_worse(s, *best)) {
+      best = &s;
+      break;
     }
   }
-  if (set.size() > 1) {
+  winner_ = best->fit;
+  verdict_.verdict = "missing_physics";
+  std::vector<std::string> set;
+  const auto add = [&set](const Standing& s) {
+    for (const sim::EffectInfo* e : s.fit->effects) {
+      const std::string name(e->name);
+      if (std::find(set.begin(), set.end(), name) == set.end()) set.push_back(name);
+    }
+  };
+  add(*best);
+  const std::size_t own = set.size();
+  for (const Standing& s : judgement_.standings) {
+    if (alike(s, *best)) add(s);
+  }
+  if (set.size() > own) {
     verdict_.verdict = "not_separable";
     verdict_.not_separable.push_back(set);
   }
+}
+
+const sim::EffectInfo* Diagnosis::leader(const Fit& fit) const {
+  const auto alone = [this](const sim::EffectInfo* effect) {
+    for (const Standing& s : judgement_.standings) {
+      if (s.fit->effects.size() == 1 && s.fit->effects[0] == effect) return s.evidence;
+    }
+    return -1e300;
+  };
+  const sim::EffectInfo* first = fit.effects[0];
+  for (const sim::EffectInfo* e : fit.effects) {
+    const double a = judgement_.marginals.at(std::string(e->name));
+    const double b = judgement_.marginals.at(std::string(first->name));
+    const bool tie = std::abs(a - b) < 1e-9;
+    if (a > b + 1e-9 || (tie && alone(e) > alone(first))) first = e;
+  }
+  return first;
+}
+
+bool Diagnosis::hardly_worse(const Standing& rival, const Standing& best) {
+  const double worse = rival.fit->objective - best.fit->objective;
+  return worse + std::max(best.holdout_gain - rival.holdout_gain, 0.0) < kAlike;
+}
+
+bool Diagnosis::alike(const Standing& rival, const Standing& best) const {
+  const Effects& effects = rival.fit->effects;
+  if (effects.empty() || !rival.listed || effects.size() > best.fit->effects.size() ||
+      part_of(best.fit->effects, effects) || rival.probability < kLeastInSet * best.probability) {
+    return false;
+  }
+  return hardly_worse(rival, best);
 }
 
 EffectFinding Diagnosis::finding(const sim::EffectInfo* effect) const {
@@ -160,7 +212,8 @@ EffectFinding Diagnosis::finding(const sim::EffectInfo* effect) const {
     for (std::size_t k = 0; k < effect->parameters.size(); ++k, ++i) {
       const int c = layout.setup_count() + i;
       const double x = s.fit->x[c];
-      const double wide = kWide * std::sqrt(std::max(s.fit->covariance(c, c), 0.0));
+      const double deviation = std::sqrt(std::max(s.fit->covariance(c, c), 0.0));
+      const double wide = std::hypot(kWide * deviation, kLeastWide);
       ParameterEstimate estimate{std::string(effect->parameters[k].name), layout.effect_value(i, x),
                                  std::string(effect->parameters[k].unit),
                                  layout.effect_value(i, x - wide),
@@ -263,7 +316,7 @@ void Diagnosis::measure() {
 }
 
 void Diagnosis::describe() {
-  verdict_.next_experiment = next_experiment(judgement_, verdict_);
+  plan_next_experiment(fitter_, sets_, judgement_, options_.threads, verdict_);
   write_evidence(judgement_, fitter_, none(), *winner_, verdict_);
 }
 
@@ -272,7 +325,7 @@ void Diagnosis::describe() {
 Verdict diagnose(const std::vector<DataSet>& data_sets, const DiagnoseOptions& options) {
   const auto model = make_rig_model(data_sets);
   try {
-    Verdict verdict = Diagnosis(*model, options).run();
+    Verdict verdict = Diagnosis(data_sets, *model, options).run();
     name_joints(verdict);
     for (const DataSet& data_set : data_sets) {
       if (data_set.rig == RigKind::kFootHil) continue;  // by our own recorder

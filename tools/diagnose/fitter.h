@@ -28,10 +28,6 @@ struct Fit {
   Eigen::MatrixXd covariance;   // of x
   double log_evidence = 0;      // Laplace, up to a constant common to all hypotheses
   double log_likelihood = 0;    // of the fit recordings, at the groups' sigma
-  /// Log likelihood that one effect more would gain by a linear step, of the list and beside it;
-  /// negative where that was not asked.
-  double more_listed = -1, more_unlisted = -1;
-  const sim::EffectInfo *next_listed = nullptr, *next_unlisted = nullptr;
 };
 
 class Fitter {

@@ -10,24 +10,27 @@ namespace {
 
 /// Shares of what is met, by the contract's section 5; the undecidable ones are effects too.
 constexpr double kNone = 0.30, kSingle = 0.38, kPair = 0.17, kUnknown = 0.15;
-/// Evidence is counted down by this: samples that look independent share one model's errors, and
-/// a fitted integrator is not the plant. From the calibration on concealed plants (README).
-constexpr double kTemperature = 2.0;
 /// And the more so the more there is to explain: a model's own errors grow with the effect. A
-/// thousandth of the best's evidence is worth three in a logarithm of odds.
-constexpr double kRelative = 1.0 / 3000;
-/// No model is the plant: this much log likelihood per independent sample proves nothing.
-constexpr double kTolerated = 0.006;
+/// thousandth of the best's evidence is worth ten at most in a logarithm of odds.
+constexpr double kRelative = 1.0 / 10000;
 constexpr double kLeastGain = 2, kNoFinding = 4;
 /// Of the order in what the nominal model leaves (structure()), what of the list leaves this share
-/// is as likely as not to miss something that is not in the list; e times as likely for each spread.
-constexpr double kLeftByKnown = 0.43, kLeftSpread = 0.05;
+/// is as likely as not to miss something that is not in the list; e times as likely for each
+/// spread.
+constexpr double kLeftByKnown = 0.45, kLeftSpread = 0.05;
+/// What explains little but foretells recordings that it was not fitted to is no chance: e times
+/// less likely to miss the point for each so much of their log likelihood.
+constexpr double kHeldOutProof = 5;
+/// The same of the logarithm by which their error falls, in the mean over channels and recordings,
+/// however few of their samples are independent. By chance it falls by less than the first of
+/// these.
+constexpr double kForetold = 0.1, kForetoldSpread = 0.04;
 /// A nominal model that leaves so much, and nothing that takes it away: the same.
-constexpr double kUnexplained = 0.17, kUnexplainedSpread = 0.03;
+constexpr double kUnexplained = 0.2, kUnexplainedSpread = 0.03;
 /// Where it leaves less, shares of it say nothing.
 constexpr double kLeastStructure = 0.004;
 /// Share of answers that are wrong although the evidence is overwhelming, on concealed plants.
-constexpr double kDoubt = 0.12;
+constexpr double kDoubt = 0.07;
 
 /// A held-out channel of one recording decides no more than this, in log likelihood.
 constexpr double kMostOfOneGroup = 15;
@@ -46,6 +49,21 @@ double holdout_gain(const Fitter& fitter, const Fit& fit, const Fit& none) {
     sum += std::clamp(gain, -kMostOfOneGroup, kMostOfOneGroup);
   }
   return sum;
+}
+
+/// Mean over held-out recordings and channels of the logarithm by which their error is smaller.
+double foretold(const Fitter& fitter, const Fit& fit, const Fit& none) {
+  double sum = 0, count = 0;
+  for (std::size_t g = 0; g < fitter.groups().size(); ++g) {
+    const Group& group = fitter.groups()[g];
+    if (!group.holdout || group.samples < 1) continue;
+    const double floor = group.noise * group.noise;
+    const double before = std::max(none.squares[g] / group.samples, floor);
+    const double after = std::max(fit.squares[g] / group.samples, floor);
+    sum += 0.5 * std::log(before / after);
+    count += 1;
+  }
+  return count > 0 ? sum / count : 0;
 }
 
 /// Sum over groups of the logarithm of how much smaller the variance became; and how much it could.
@@ -124,7 +142,9 @@ void suspect_unknown(std::vector<Standing>& standings, double none) {
     if (s.fit->effects.empty()) {
       s.insufficient = 1 / (1 + std::exp((kUnexplained - none) / kUnexplainedSpread));
     } else if (s.listed && none > kLeastStructure) {
-      s.insufficient = 1 / (1 + std::exp((kLeftByKnown - s.left) / kLeftSpread));
+      const double proof = std::max(
+          {s.holdout_gain / kHeldOutProof, (s.foretold - kForetold) / kForetoldSpread, 0.0});
+      s.insufficient = 1 / (1 + std::exp((kLeftByKnown - s.left) / kLeftSpread + proof));
     }
   }
 }
@@ -168,6 +188,7 @@ Judgement judge(const Fitter& fitter, const SearchResult& result) {
                0};
     const Gains g = gains(fitter, fit, none);
     s.explained = g.possible > 0 ? g.made / g.possible : 1;
+    s.foretold = foretold(fitter, fit, none);
     s.left = whole > 0 ? structure(fitter, fit) / whole : 0;
     score.push_back(tempered(s, none, tolerance, most) - worse_held_out(fitter, result, fit) +
                     log_prior(fit, singles, pairs, stand_ins));

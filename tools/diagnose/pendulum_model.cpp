@@ -175,6 +175,8 @@ void PendulumModel::add(const DataSet& data_set, const Recording& recording) {
   add_doubts(run);
   estimate_start(run);
   choose_correction(run);
+  // Of an experiment to come the noise is not known yet: as in the recordings that were made.
+  if (recording.planned && !runs_.empty()) run.correction = runs_.front().correction;
   look_for_losses(run);
   runs_.push_back(std::move(run));
 }
@@ -315,6 +317,7 @@ void PendulumModel::measure_effort() {
   std::vector<double> setup;
   for (const DoubtfulValue& doubt : doubtful_) setup.push_back(doubt.value);
   for (Run& run : runs_) {
+    if (run.recording->planned) continue;
     std::vector<double> effort;
     double scale = 1;
     for (const char* name : {"torque", "current"}) {
@@ -351,7 +354,7 @@ void PendulumModel::look_for_losses(Run& run) const {
   const PendulumSettings& s = run.settings;
   const bool current = !recording.has("torque") && s.kt_Nm_A > 0;
   const std::string name = current ? "current" : "torque";
-  if (s.law == PendulumLaw::kTorque || !recording.has(name)) return;
+  if (s.law == PendulumLaw::kTorque || !recording.has(name) || recording.planned) return;
   std::vector<double> torque = recording.channels.at(name);
   if (current) {
     for (double& v : torque) v *= s.kt_Nm_A;

@@ -65,6 +65,7 @@ class PendulumModel final : public RigModel {
   void choose_effects();
   sim::PendulumSettings settings(const Run& run, std::span<const double> setup) const;
   void estimate_start(Run& run) const;
+  void start_in_motion(Run& run) const;
   void start_at_rest(Run& run) const;
   void choose_correction(Run& run) const;
   void look_for_losses(Run& run) const;

@@ -1,5 +1,7 @@
 // Where a rollout begins: as measured, and better where the recording begins at rest.
+#include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "tools/diagnose/noise.h"
@@ -52,6 +54,69 @@ std::size_t still_samples(std::span<const double> values, double noise) {
   return n > kFewest ? n - kFewest : 0;
 }
 
+struct StartOfPath {
+  double angle = 0, speed = 0;
+  double speed_doubt = 0;  // 1 sigma; 0: no polynomial fits
+};
+
+/// A polynomial in time over its span, by least squares.
+struct Polynomial {
+  Eigen::VectorXd c, sigma;  // coefficients and their deviations for noise of 1
+  double squares = 0;
+  double freedom = 0;
+};
+
+Polynomial fit_polynomial(std::span<const double> time_s, std::span<const double> values,
+                          double span_s, int order) {
+  std::vector<std::size_t> there;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (std::isfinite(values[i])) there.push_back(i);
+  }
+  const auto rows = static_cast<Eigen::Index>(there.size());
+  Polynomial p;
+  p.freedom = static_cast<double>(rows - order - 1);
+  if (p.freedom < 2) return p;
+  Eigen::MatrixXd A(rows, order + 1);
+  Eigen::VectorXd y(rows);
+  for (Eigen::Index r = 0; r < rows; ++r) {
+    const std::size_t i = there[static_cast<std::size_t>(r)];
+    y[r] = values[i];
+    for (int k = 0; k <= order; ++k) A(r, k) = std::pow((time_s[i] - time_s[0]) / span_s, k);
+  }
+  p.c = A.householderQr().solve(y);
+  p.squares = (y - A * p.c).squaredNorm();
+  p.sigma = (A.transpose() * A).inverse().diagonal().cwiseSqrt();
+  return p;
+}
+
+/// What tells the speed best of polynomials that leave the noise only, and of which the next term
+/// would be none.
+StartOfPath start_of_path(std::span<const double> time_s, std::span<const double> values,
+                          double noise) {
+  constexpr std::array<std::size_t, 6> kSamples = {6, 9, 14, 20, 30, 45};
+  constexpr double kNone = 1.3;  // deviations
+  StartOfPath best;
+  if (!(noise > 0)) return best;
+  for (const std::size_t n : kSamples) {
+    if (n > values.size()) break;
+    const double span_s = time_s[n - 1] - time_s[0];
+    Polynomial p = fit_polynomial(time_s.first(n), values.first(n), span_s, 1);
+    for (int order = 1; order <= 3 && p.freedom >= 2; ++order) {
+      Polynomial next = fit_polynomial(time_s.first(n), values.first(n), span_s, order + 1);
+      const double chi2 = p.squares / (noise * noise) / p.freedom;
+      const bool straight =
+          next.freedom < 2 || std::abs(next.c[order + 1]) < kNone * noise * next.sigma[order + 1];
+      const double doubt = noise * p.sigma[1] / span_s;
+      const bool better = best.speed_doubt == 0 || doubt < best.speed_doubt;
+      if (straight && better && chi2 < 1 + std::sqrt(2 / p.freedom)) {
+        best = {p.c[0], p.c[1] / span_s, doubt};
+      }
+      p = std::move(next);
+    }
+  }
+  return best;
+}
+
 }  // namespace
 
 void PendulumModel::estimate_start(Run& run) const {
@@ -65,7 +130,32 @@ void PendulumModel::estimate_start(Run& run) const {
   run.start.velocity_rad_s =
       measured ? velocity.front() : first_slope(recording.time_s, position, kStartSpan_s);
   run.fitted_start = run.start;
+  start_in_motion(run);
   start_at_rest(run);
+}
+
+/// Angle and speed by the polynomial over the first samples that tells the speed best and leaves no
+/// more than the noise. A speed from few samples is off by more than a loop forgets in its first
+/// tenth of a second.
+void PendulumModel::start_in_motion(Run& run) const {
+  const Recording& recording = *run.recording;
+  const auto position = channel(recording, "position");
+  double noise = stated_noise(*run.data_set, "position");
+  noise = std::max(noise, estimate_noise(recording.time_s, position));
+  const bool measured = recording.has("velocity");
+  const auto velocity = channel(recording, "velocity");
+  double speed_doubt = 0;
+  if (measured) {
+    speed_doubt = std::max(stated_noise(*run.data_set, "velocity"),
+                           estimate_noise(recording.time_s, velocity));
+  }
+  const StartOfPath path = start_of_path(recording.time_s, position, noise);
+  if (!(path.speed_doubt > 0)) return;
+  run.fitted_start.position_rad = path.angle;
+  const double a = path.speed_doubt * path.speed_doubt, b = speed_doubt * speed_doubt;
+  run.fitted_start.velocity_rad_s = measured && std::isfinite(velocity.front()) && b > 0
+                                        ? (b * path.speed + a * velocity.front()) / (a + b)
+                                        : path.speed;
 }
 
 /// A joint that sticks keeps the angle it begins at: an error of one sample's noise there is an
@@ -83,7 +173,6 @@ void PendulumModel::start_at_rest(Run& run) const {
     if (std::isfinite(position[i])) angle.add(position[i]);
   }
   if (angle.count < kFewest) return;
-  run.fitted_start = run.start;
   run.fitted_start.velocity_rad_s = 0;
   run.fitted_start.position_rad = angle.value();
   const auto torque = channel(recording, "torque");

@@ -103,7 +103,9 @@ void PressModel::read_sand(Press& press, int& presses_before) {
   const Recording& recording = press.recording;
   const std::vector<double>& heights = recording.channels.at("position");
   press.path = press_path(recording.time_s, heights);
-  presses_before = count_presses(press.path, press.surface_height.value, presses_before);
+  const int after = count_presses(press.path, press.surface_height.value, presses_before);
+  // Of planned presses one is made, after those that were: each is the next.
+  if (!recording.planned) presses_before = after;
   const auto force = recording.channels.find("force");
   for (std::size_t i = 0; i < heights.size(); ++i) {
     press.compared.push_back(force != recording.channels.end() && !std::isnan(heights[i]) &&

@@ -1,6 +1,7 @@
 #include "tools/diagnose/report_page.h"
 
 #include "sim/effects/effect.h"
+#include "tools/diagnose/experiment_text.h"
 #include "tools/diagnose/report_plots.h"
 #include "tools/diagnose/report_tables.h"
 #include "tools/diagnose/verdict_text.h"
@@ -112,11 +113,29 @@ std::string quality_html(const Verdict& verdict) {
   return html + "</ul>\n";
 }
 
-std::string next_html(const Verdict& verdict) {
+/// Files and plots of an experiment that was simulated.
+std::string planned_html(const PlannedExperiment& plan, const std::string& plots) {
+  std::string outputs;
+  for (const std::string& name : plan.output_channels) {
+    outputs += (outputs.empty() ? "" : ", ") + name;
+  }
+  return element("p", "Chosen among " + std::to_string(plan.looked_at) +
+                          " that were simulated with each hypothesis, within what the recordings "
+                          "show to be safe. Play " +
+                          std::string(kExperimentTable) + ", record " + outputs + " into " +
+                          plan.set.recordings.front().name + ", and give " + kExperimentFile +
+                          " to hoof diagnose beside the data sets that were given now.") +
+         "<p class=\"note\">Shaded: what tells best. Dashed: two sigma of noise and of what is "
+         "uncertain of the hypotheses' numbers.</p>\n" +
+         plots;
+}
+
+std::string next_html(const Verdict& verdict, const std::string& plots) {
   std::string html = element("h2", "What next", " id=\"next\"");
   if (!verdict.next_experiment.empty()) {
     html += element("p", "Experiment: " + verdict.next_experiment + ".");
   }
+  if (verdict.planned_experiment) html += planned_html(*verdict.planned_experiment, plots);
   if (verdict.verdict == "missing_physics") {
     html +=
         "<p>improved.toml beside this page is the model with what was found; hoof simulate "
@@ -139,7 +158,7 @@ std::string report_page(const Verdict& verdict, const std::vector<DataSet>& data
                            answer_html(verdict, rig) + warnings_html(verdict) +
                            links_html(verdict) + where_html(verdict) + plots.html +
                            what_html(verdict) + how_much_html(verdict, rig) + setup_html(verdict) +
-                           quality_html(verdict) + next_html(verdict);
+                           quality_html(verdict) + next_html(verdict, plots.planned_html);
   return make_page("Diagnosis of " + names_of(data_sets), body, plots.json);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <utility>
 
 #include "tools/diagnose/series.h"
 #include "tools/diagnose/verdict_text.h"
@@ -26,14 +27,25 @@ bool is_named(const Verdict& verdict, const ChannelTrace& trace) {
   return std::find(names.begin(), names.end(), trace.recording) != names.end();
 }
 
+std::string region_json(double from_s, double to_s) {
+  return "{\"from_s\":" + format_number(from_s) + ",\"to_s\":" + format_number(to_s) + "}";
+}
+
 std::string regions_json(const Verdict& verdict, const ChannelTrace& trace) {
   std::string json = "[";
   for (const Interval& i : verdict.intervals) {
     if (i.recording != trace.recording) continue;
-    json += (json.size() > 1 ? "," : "") + std::string("{\"from_s\":") + format_number(i.start_s) +
-            ",\"to_s\":" + format_number(i.end_s) + "}";
+    json += (json.size() > 1 ? "," : "") + region_json(i.start_s, i.end_s);
   }
   return json + "]";
+}
+
+/// What is read off, where it is of this channel.
+std::string planned_regions_json(const TellingReading& t, const std::string& channel) {
+  if (t.channel != channel) return "[]";
+  const std::string earlier =
+      t.change ? region_json(t.earlier_from_s, t.earlier_to_s) + "," : std::string();
+  return "[" + earlier + region_json(t.from_s, t.to_s) + "]";
 }
 
 std::string line_json(const std::string& label, const Values& values, bool band) {
@@ -97,20 +109,69 @@ class PlotWriter {
     html_ += "</div></section>\n";
   }
 
+  /// One channel of an experiment that is yet to be made: what each hypothesis expects, and by how
+  /// much the others differ from the first.
+  void add_planned(const PlannedExperiment& plan, const std::string& channel) {
+    const Values& time_s = plan.set.recordings.front().time_s;
+    const Values& first = plan.outcomes.front().predicted.at(channel);
+    std::vector<Values> differences;
+    std::vector<const Values*> all;
+    for (const ExpectedOutcome& o : plan.outcomes) {
+      differences.push_back(residual(o.predicted.at(channel), first));
+    }
+    for (std::size_t i = 0; i < differences.size(); ++i) {
+      all.insert(all.end(), {&plan.outcomes[i].predicted.at(channel), &differences[i]});
+    }
+    const auto at = thinned(all, kMostSamples);
+    html_ += "<section class=\"pair\"><h3>" + html_escape("next experiment: " + channel) +
+             element("span", "simulated", " class=\"role\"") + "</h3>\n<div class=\"plots\">\n";
+    const std::string regions = planned_regions_json(plan.telling, channel);
+    start_plot(channel, time_s, regions, at, "what each expects", channel);
+    for (const ExpectedOutcome& o : plan.outcomes) {
+      json_ += (&o == &plan.outcomes.front() ? "" : ",\n") +
+               line_json(o.hypothesis, picked(o.predicted.at(channel), at), false);
+    }
+    json_ += "]}";
+    start_plot(channel, time_s, regions, at, "less " + plan.outcomes.front().hypothesis,
+               channel + " difference");
+    Values wide(first.size());
+    for (std::size_t k = 0; k < wide.size(); ++k) {
+      wide[k] = plan.noise.at(channel) * plan.noise.at(channel);
+      for (const ExpectedOutcome& o : plan.outcomes) {
+        wide[k] += o.spread.at(channel)[k] * o.spread.at(channel)[k];
+      }
+      wide[k] = 2 * std::sqrt(wide[k]);
+    }
+    json_ += line_json("+2 sigma of noise and doubt", picked(wide, at), true);
+    for (std::size_t i = 1; i < differences.size(); ++i) {
+      json_ += ",\n" + line_json(plan.outcomes[i].hypothesis, picked(differences[i], at), false);
+    }
+    for (double& value : wide) value = -value;
+    json_ += ",\n" + line_json("-2 sigma of noise and doubt", picked(wide, at), true) + "]}";
+    html_ += "</div></section>\n";
+  }
+
   void add_text(const std::string& html) { html_ += html; }
 
-  ReportPlots take() {
-    return {std::move(html_), "{\"time_s\":[],\"phases\":[],\"plots\":[" + std::move(json_) + "]}"};
+  /// What was written since the last call.
+  std::string take_html() { return std::exchange(html_, ""); }
+  std::string take_json() const {
+    return "{\"time_s\":[],\"phases\":[],\"plots\":[" + json_ + "]}";
   }
 
  private:
   void start_plot(const ChannelTrace& t, const std::vector<std::size_t>& at,
                   const std::string& title, const std::string& axis) {
+    start_plot(t.channel, t.time_s, regions_json(verdict_, t), at, title, axis);
+  }
+  void start_plot(const std::string& channel, const Values& time_s, const std::string& regions,
+                  const std::vector<std::size_t>& at, const std::string& title,
+                  const std::string& axis) {
     html_ += "<div class=\"plot\">" + element("h3", title) + "<div class=\"canvas\"></div></div>\n";
     json_ += (json_.empty() ? "" : ",\n") + std::string("{\"axis\":") + Json(axis).dump() +
-             ",\"unit\":" + Json(channel_unit(rig_, t.channel)).dump() +
-             ",\"time_s\":" + json_numbers(picked(t.time_s, at), 1) +
-             ",\"regions\":" + regions_json(verdict_, t) + ",\"series\":[";
+             ",\"unit\":" + Json(channel_unit(rig_, channel)).dump() +
+             ",\"time_s\":" + json_numbers(picked(time_s, at), 1) + ",\"regions\":" + regions +
+             ",\"series\":[";
   }
 
   const Verdict& verdict_;
@@ -163,14 +224,23 @@ ReportPlots report_plots(const Verdict& verdict, RigKind rig) {
   const std::vector<std::size_t> open = traces_to_open(verdict);
   for (const std::size_t i : open) plots.add(verdict.traces[i]);
   const std::size_t folded = verdict.traces.size() - open.size();
-  if (folded == 0) return plots.take();
-  plots.add_text("<details><summary>Other recordings and channels (" + std::to_string(folded) +
-                 ")</summary>\n");
-  for (std::size_t i = 0; i < verdict.traces.size(); ++i) {
-    if (std::find(open.begin(), open.end(), i) == open.end()) plots.add(verdict.traces[i]);
+  if (folded > 0) {
+    plots.add_text("<details><summary>Other recordings and channels (" + std::to_string(folded) +
+                   ")</summary>\n");
+    for (std::size_t i = 0; i < verdict.traces.size(); ++i) {
+      if (std::find(open.begin(), open.end(), i) == open.end()) plots.add(verdict.traces[i]);
+    }
+    plots.add_text("</details>\n");
   }
-  plots.add_text("</details>\n");
-  return plots.take();
+  ReportPlots made;
+  made.html = plots.take_html();
+  if (verdict.planned_experiment) {
+    const PlannedExperiment& plan = *verdict.planned_experiment;
+    for (const auto& [channel, noise] : plan.noise) plots.add_planned(plan, channel);
+    made.planned_html = plots.take_html();
+  }
+  made.json = plots.take_json();
+  return made;
 }
 
 }  // namespace hoof::tools

@@ -10,8 +10,9 @@
 namespace hoof::tools {
 
 struct ReportPlots {
-  std::string html;  // two boxes a trace
-  std::string json;  // what page.js draws into them
+  std::string html;          // two boxes a trace
+  std::string planned_html;  // two boxes a channel of the experiment that is planned; may be empty
+  std::string json;          // what page.js draws into them, in this order
 };
 
 /// The traces that are shown at once, by index, most telling first: of recordings that the verdict

@@ -27,7 +27,6 @@ class Search {
     if (options_.crosswise) fit_crosswise();
     take_noise_of_best();
     fit_contenders();
-    look_at_rest();
     say(1, "done");
     return std::move(result_);
   }
@@ -352,28 +351,6 @@ class Search {
     for_each_task(static_cast<int>(others.size()), options_.threads,
                   [&](int i) { fitter_.judge(others[i]); });
     for (Fit& fit : others) result_.fits.push_back(std::move(fit));
-  }
-
-  /// What one effect more would take from what the best leave.
-  void look_at_rest() {
-    say(0.98, "what is left");
-    std::vector<Fit*> best;
-    for (Fit& fit : result_.fits) {
-      if (listed(fit.effects)) best.push_back(&fit);
-    }
-    std::stable_sort(best.begin() + 1, best.end(),
-                     [](const Fit* a, const Fit* b) { return a->log_evidence > b->log_evidence; });
-    if (static_cast<int>(best.size()) > options_.looked_at) best.resize(options_.looked_at);
-    for (Fit* fit : best) {
-      fit->more_listed = fit->more_unlisted = 0;
-      for (const Candidate& c : look_beside(*fit, 1, fitter_.weights())) {
-        double& most = c.effects.back()->listed ? fit->more_listed : fit->more_unlisted;
-        if (c.gain > most) {
-          most = c.gain;
-          (c.effects.back()->listed ? fit->next_listed : fit->next_unlisted) = c.effects.back();
-        }
-      }
-    }
   }
 
   Fitter& fitter_;

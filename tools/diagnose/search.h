@@ -23,7 +23,6 @@ struct SearchOptions {
   int singles = 1000;     // effects that are fitted alone, those that a first look promises most of
   int pair_bases = 4;     // single effects that others are tried beside
   bool crosswise = true;  // rivals are fitted again from where the best are
-  int looked_at = 4;      // of which it is asked what one effect more would gain
   int contenders = 16;    // fitted anew with the noise as the best of them leaves it
 };
 

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "tools/diagnose/planned_experiment.h"
+
 namespace hoof::tools {
 
 struct ParameterEstimate {
@@ -94,6 +96,8 @@ struct Verdict {
   std::optional<UnknownTerm> unknown_term;
 
   // Beyond verdict.json's required keys.
+  std::optional<PlannedExperiment>
+      planned_experiment;          // what next_experiment says, where simulated
   std::vector<std::string> named;  // effects of the winning model, none for "none"
   std::vector<SetupEstimate> setup;
   std::vector<QualityNote> quality;

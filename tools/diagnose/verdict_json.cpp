@@ -90,6 +90,23 @@ Json unknown_json(const std::optional<UnknownTerm>& term) {
           {"holdout", errors_json(term->holdout)}};
 }
 
+Json planned_json(const PlannedExperiment& plan) {
+  Json outcomes = Json::array();
+  for (const ExpectedOutcome& o : plan.outcomes) {
+    if (plan.open_loop) break;
+    outcomes.push_back(
+        {{"hypothesis", o.hypothesis}, {"reading", o.reading}, {"sigma", o.reading_sigma}});
+  }
+  const TellingReading& t = plan.telling;
+  Json reading = {{"channel", t.channel}, {"start", t.from_s}, {"end", t.to_s}};
+  if (t.change) reading["less"] = {{"start", t.earlier_from_s}, {"end", t.earlier_to_s}};
+  reading["sigmas"] = t.sigmas;
+  return {{"action", plan.action},         {"sigmas", plan.sigmas},
+          {"log10_odds", plan.log10_odds}, {"sigmas_if_given_again", plan.again_sigmas},
+          {"reading", std::move(reading)}, {"outcomes", std::move(outcomes)},
+          {"looked_at", plan.looked_at}};
+}
+
 Json setup_json(const std::vector<SetupEstimate>& setup) {
   Json json = Json::object();
   for (const SetupEstimate& s : setup) {
@@ -131,6 +148,9 @@ Json verdict_json(const Verdict& verdict) {
   json["unknown_term"] = unknown_json(verdict.unknown_term);
   json["setup"] = setup_json(verdict.setup);
   json["data_quality"] = quality_json(verdict.quality);
+  if (verdict.planned_experiment) {
+    json["planned_experiment"] = planned_json(*verdict.planned_experiment);
+  }
   return json;
 }
 

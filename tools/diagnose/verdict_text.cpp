@@ -248,7 +248,8 @@ std::vector<std::string> summary_lines(const Verdict& verdict, RigKind rig,
           "data        " + quality_text(verdict),
           "next        " + (verdict.next_experiment.empty() ? "-" : verdict.next_experiment),
           "files       " + folder +
-              "/report.html, verdict.json, improved.toml, residuals.csv, hypotheses.csv"};
+              "/report.html, verdict.json, improved.toml, residuals.csv, hypotheses.csv" +
+              (verdict.planned_experiment ? ", next_experiment.toml, next_experiment.csv" : "")};
 }
 
 }  // namespace hoof::tools

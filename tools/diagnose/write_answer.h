@@ -11,7 +11,8 @@ namespace hoof::tools {
 
 inline constexpr char kVerdictFile[] = "verdict.json";
 
-/// verdict.json, report.html, improved.toml, residuals.csv and hypotheses.csv.
+/// verdict.json, report.html, improved.toml, residuals.csv and hypotheses.csv; where an experiment
+/// was planned, next_experiment.toml and next_experiment.csv.
 void write_answer(const Verdict& verdict, const std::vector<DataSet>& data_sets,
                   AnswerFolder& folder);
 

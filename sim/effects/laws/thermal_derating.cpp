@@ -46,7 +46,7 @@ EffectInfo thermal_derating_effect() {
               "loss of remanence and rise of resistance with temperature: Hanselman, Brushless "
               "Permanent Magnet Motor Design, 2nd ed., ch. 10",
           .parameters = {{"fraction", "1", 0, 0.95, 0.1, true, false, {0.15}},
-                         {"time_constant", "s", 0.05, 300, 5, true, false, {0.7, 2.5, 10}}},
+                         {"time_constant", "s", 0.05, 300, 5, true, false, {0.1, 0.25, 0.7, 2.5, 10}}},
           .experiment = "the same load cycle three times without a pause, on a measured supply",
           .make_joint = [](std::span<const double> values) {
             return std::make_unique<ThermalDerating>(values);
