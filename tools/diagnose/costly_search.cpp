@@ -6,7 +6,7 @@
 #include <cmath>
 #include <thread>
 
-#include "tools/diagnose/candidates.h"
+#include "tools/diagnose/search_start.h"
 #include "tools/diagnose/linear_look.h"
 #include "tools/diagnose/noise_left.h"
 

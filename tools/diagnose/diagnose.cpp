@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/diagnose/candidates.h"
+#include "tools/diagnose/search_start.h"
 #include "tools/diagnose/costly_search.h"
 #include "tools/diagnose/evidence_text.h"
 #include "tools/diagnose/foot_effects.h"

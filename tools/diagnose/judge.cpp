@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/diagnose/candidates.h"
+#include "tools/diagnose/search_start.h"
 
 namespace hoof::tools {
 namespace {

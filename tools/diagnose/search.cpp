@@ -5,8 +5,8 @@
 #include <cmath>
 #include <thread>
 
-#include "tools/diagnose/candidates.h"
 #include "tools/diagnose/noise_left.h"
+#include "tools/diagnose/search_start.h"
 
 namespace hoof::tools {
 namespace {
@@ -61,7 +61,7 @@ class Search {
     return fitter_.fit(fit.effects, fit.x, options_.iterations, fitter_.weights());
   }
 
-  void follow(const std::vector<Candidate>& candidates, double from, double to,
+  void follow(const std::vector<SearchStart>& candidates, double from, double to,
               const std::string& what, bool anew = true) {
     std::vector<Fit> fits(candidates.size());
     std::atomic<int> done{0};
@@ -89,7 +89,7 @@ class Search {
 
   /// A hypothesis holds the nominal model, and a pair each of its members: one that comes out worse
   /// than what it holds went astray, and is followed once more from there.
-  Fit follow_one(const Candidate& candidate) const {
+  Fit follow_one(const SearchStart& candidate) const {
     Fit fit = settle(best_size(candidate));
     for (const Fit& simpler : result_.fits) {
       const bool held = simpler.effects.size() < candidate.effects.size() &&
@@ -131,7 +131,7 @@ class Search {
     best.resize(std::min<std::size_t>(best.size(), options_.contenders));
     // The nominal model among them always: what it can do by itself is no missing physics.
     best.push_back(result_.fits[0]);
-    std::vector<Candidate> again;
+    std::vector<SearchStart> again;
     for (std::size_t d = 0; d < std::min(kDonors, best.size()); ++d) {
       if (best[d].effects.empty()) continue;
       for (std::size_t i = 0; i < best.size(); ++i) {
@@ -153,7 +153,7 @@ class Search {
 
   /// The candidate at the size, of some, that leaves least: a linear step may go too far. The other
   /// coordinates stay, or give way as a linear step has it.
-  Fit best_size(const Candidate& candidate) const {
+  Fit best_size(const SearchStart& candidate) const {
     Fit fit;
     fit.effects = candidate.effects;
     fit.x = candidate.x;
@@ -179,26 +179,27 @@ class Search {
     return fit;
   }
 
-  std::vector<Candidate> look_beside(const Fit& base, int starts) {
+  std::vector<SearchStart> look_beside(const Fit& base, int starts) {
     return look_beside(base, starts, fitter_.roomy_weights(base.squares, 0.3));
   }
 
-  std::vector<Candidate> look_beside(const Fit& base, int starts, const Fitter::Weights& weights) {
+  std::vector<SearchStart> look_beside(const Fit& base, int starts,
+                                       const Fitter::Weights& weights) {
     const Tangent t = tangent(fitter_, base, weights);
     const auto& effects = fitter_.model().effects();
-    std::vector<std::vector<Candidate>> found(effects.size());
+    std::vector<std::vector<SearchStart>> found(effects.size());
     for_each_task(static_cast<int>(effects.size()), options_.threads, [&](int i) {
       const bool there =
           std::find(base.effects.begin(), base.effects.end(), effects[i]) != base.effects.end();
       if (!there) found[i] = starts_beside(fitter_, base, t, effects[i], weights);
     });
-    std::vector<Candidate> all;
+    std::vector<SearchStart> all;
     for (auto& list : found) {
       if (static_cast<int>(list.size()) > starts) list.resize(starts);
       const double least = list.empty() ? 0 : 0.3 * std::abs(list[0].gain);
       std::erase_if(
-          list, [least](const Candidate& c) { return c.size_coordinate >= 0 && c.gain < least; });
-      for (Candidate& c : list) all.push_back(std::move(c));
+          list, [least](const SearchStart& c) { return c.size_coordinate >= 0 && c.gain < least; });
+      for (SearchStart& c : list) all.push_back(std::move(c));
     }
     return all;
   }
@@ -228,18 +229,18 @@ class Search {
 
   void fit_singles() {
     say(0.05, "one effect");
-    std::vector<Candidate> singles = look_beside(result_.fits[0], options_.fits_of_single);
+    std::vector<SearchStart> singles = look_beside(result_.fits[0], options_.fits_of_single);
     if (options_.restrained) {
       Fitter::Weights weights = fitter_.roomy_weights(held_.squares, 0.3);
       weights.until = rough_weights_.until;
-      for (Candidate& c : look_beside(held_, options_.fits_of_single, weights)) {
+      for (SearchStart& c : look_beside(held_, options_.fits_of_single, weights)) {
         c.weights = &rough_weights_;
         singles.push_back(std::move(c));
       }
     }
     if (static_cast<int>(singles.size()) > options_.singles) {
       std::stable_sort(singles.begin(), singles.end(),
-                       [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
+                       [](const SearchStart& a, const SearchStart& b) { return a.gain > b.gain; });
       singles.resize(options_.singles);
     }
     follow(most_promising(singles, options_.follow_singles), 0.1, 0.45, "one effect");
@@ -247,12 +248,12 @@ class Search {
 
   /// After a rough fit of each: of several starts of one hypothesis those that are not behind its
   /// best, and no more hypotheses than `most`.
-  std::vector<Candidate> most_promising(std::vector<Candidate> candidates, int most) {
+  std::vector<SearchStart> most_promising(std::vector<SearchStart> candidates, int most) {
     if (options_.rough_iterations <= 0) return candidates;
     const auto weights = fitter_.roomy_weights(result_.fits[0].squares, 0.5);
     const double nominal = fitter_.objective({}, result_.fits[0].x, weights);
     for_each_task(static_cast<int>(candidates.size()), options_.threads, [&](int i) {
-      Candidate& c = candidates[i];
+      SearchStart& c = candidates[i];
       c.x = fitter_
                 .fit(c.effects, best_size(c).x, options_.rough_iterations,
                      c.weights ? *c.weights : weights, 1e-3)
@@ -261,11 +262,11 @@ class Search {
       c.sized = true;
     });
     std::stable_sort(candidates.begin(), candidates.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
-    std::vector<Candidate> ahead;
+                     [](const SearchStart& a, const SearchStart& b) { return a.gain > b.gain; });
+    std::vector<SearchStart> ahead;
     int hypotheses = 0;
-    for (Candidate& c : candidates) {
-      const auto best = std::find_if(ahead.begin(), ahead.end(), [&c](const Candidate& other) {
+    for (SearchStart& c : candidates) {
+      const auto best = std::find_if(ahead.begin(), ahead.end(), [&c](const SearchStart& other) {
         return other.effects == c.effects;
       });
       const bool first = best == ahead.end();
@@ -282,26 +283,26 @@ class Search {
     std::erase_if(singles,
                   [](const Fit& f) { return f.effects.size() != 1 || !f.effects[0]->listed; });
     if (static_cast<int>(singles.size()) > options_.pair_bases) singles.resize(options_.pair_bases);
-    std::vector<Candidate> pairs;
+    std::vector<SearchStart> pairs;
     for (const Fit& base : singles) {
-      for (Candidate& c : look_beside(base, 1)) {
+      for (SearchStart& c : look_beside(base, 1)) {
         if (!c.effects.back()->listed) continue;
         c.gain += first_rank(fitter_, base) - first_rank(fitter_, result_.fits[0]);
         pairs.push_back(std::move(c));
       }
     }
     std::stable_sort(pairs.begin(), pairs.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
+                     [](const SearchStart& a, const SearchStart& b) { return a.gain > b.gain; });
     // The same pair from both sides is worth two starts, not more.
     if (static_cast<int>(pairs.size()) > options_.pair_fits) pairs.resize(options_.pair_fits);
-    for (Candidate& pair : pairs) put_in_order(pair);
+    for (SearchStart& pair : pairs) put_in_order(pair);
     pairs = most_promising(std::move(pairs), options_.follow_pairs);
     follow(pairs, 0.5, 0.7, "pairs");
   }
 
   /// Effects of a pair in the order of their names, as in the catalogue, so that both ways round
   /// are one hypothesis; not of their addresses, which differ from run to run.
-  void put_in_order(Candidate& pair) const {
+  void put_in_order(SearchStart& pair) const {
     if (pair.effects[0]->name < pair.effects[1]->name) return;
     const auto first = static_cast<Eigen::Index>(pair.effects[0]->parameters.size());
     const auto second = static_cast<Eigen::Index>(pair.effects[1]->parameters.size());
@@ -333,7 +334,7 @@ class Search {
     say(0.8, "contenders");
     std::vector<Fit> fits = ranked();
     const Fit nominal = result_.fits[0];
-    std::vector<Candidate> again = {{nominal.effects, nominal.x, {}, 0, -1, false}};
+    std::vector<SearchStart> again = {{nominal.effects, nominal.x, {}, 0, -1, false}};
     for (const Fit& fit : fits) {
       if (!fit.effects.empty() && static_cast<int>(again.size()) < options_.contenders) {
         again.push_back({fit.effects, fit.x, {}, 0, -1, false});
@@ -341,7 +342,7 @@ class Search {
     }
     std::vector<Fit> others;
     for (const Fit& fit : fits) {
-      const bool contends = std::any_of(again.begin(), again.end(), [&fit](const Candidate& c) {
+      const bool contends = std::any_of(again.begin(), again.end(), [&fit](const SearchStart& c) {
         return c.effects == fit.effects;
       });
       if (!contends) others.push_back(fit);

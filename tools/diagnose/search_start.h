@@ -8,7 +8,7 @@
 
 namespace hoof::tools {
 
-struct Candidate {
+struct SearchStart {
   Effects effects;
   Eigen::VectorXd x;
   /// By how much the base's own coordinates give way to the effect at this size, linearly.
@@ -30,8 +30,9 @@ struct Tangent {
 Tangent tangent(const Fitter& fitter, const Fit& fit, const Fitter::Weights& weights);
 
 /// Starts of `effect` beside a fit, each at the size that a linear step asks for, best first.
-std::vector<Candidate> starts_beside(const Fitter& fitter, const Fit& base, const Tangent& tangent,
-                                     const sim::EffectInfo* effect, const Fitter::Weights& weights);
+std::vector<SearchStart> starts_beside(const Fitter& fitter, const Fit& base,
+                                       const Tangent& tangent, const sim::EffectInfo* effect,
+                                       const Fitter::Weights& weights);
 
 /// Coordinates of the hypothesis `to`: the setup, and the effects that `from` has too, as they are
 /// there, others from `x`.

@@ -1,4 +1,4 @@
-#include "tools/diagnose/candidates.h"
+#include "tools/diagnose/search_start.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -68,12 +68,12 @@ Tangent tangent(const Fitter& fitter, const Fit& fit, const Fitter::Weights& wei
   return t;
 }
 
-std::vector<Candidate> starts_beside(const Fitter& fitter, const Fit& base, const Tangent& tangent,
-                                     const sim::EffectInfo* effect,
-                                     const Fitter::Weights& weights) {
+std::vector<SearchStart> starts_beside(const Fitter& fitter, const Fit& base,
+                                       const Tangent& tangent, const sim::EffectInfo* effect,
+                                       const Fitter::Weights& weights) {
   const Layout alone(fitter.model(), {effect});
   const Layout both(fitter.model(), with(base.effects, effect));
-  std::vector<Candidate> candidates;
+  std::vector<SearchStart> candidates;
   for (const Layout::Start& start : alone.starts(base.x)) {
     const int setup = alone.setup_count();
     const auto own = alone.size() - setup;
@@ -115,7 +115,7 @@ std::vector<Candidate> starts_beside(const Fitter& fitter, const Fit& base, cons
     candidates.push_back({both.effects(), x, give, gain, size >= 0 ? size + shift : -1, by_log});
   }
   std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
+                   [](const SearchStart& a, const SearchStart& b) { return a.gain > b.gain; });
   return candidates;
 }
 
