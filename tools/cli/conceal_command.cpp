@@ -76,6 +76,8 @@ void add_grade(CLI::App& parent, Invocation& invocation) {
       ->type_name("FILE");
   command->add_option("--csv", options->csv, "Also write one line for each case")
       ->type_name("FILE");
+  command->add_flag("--answered", options->answered,
+                    "Leave out what has no answer folder yet, and say how many those are");
   command->footer(
       "Examples:\n"
       "  hoof conceal grade runs/sealed runs/answers\n"

@@ -64,6 +64,7 @@ std::vector<GradedCase> read_cases(const GradeOptions& options) {
   const fs::path truth = options.truth.empty() ? options.batch / "truth.json" : options.truth;
   std::vector<GradedCase> cases;
   for (const TruthCase& one : read_truth(truth, options.batch / "truth.sha256")) {
+    if (options.answered && !fs::exists(options.answers / one.name)) continue;
     GradedCase graded{one, std::nullopt, ""};
     try {
       graded.answer = read_answer(options.answers / one.name);
@@ -210,6 +211,10 @@ void grade(const GradeOptions& options, std::ostream& out) {
   std::vector<Measure> measures = verdict_measures(truths, tool);
   const std::vector<Measure> more = answer_measures(cases);
   measures.insert(measures.end(), more.begin(), more.end());
+  const fs::path truth = options.truth.empty() ? options.batch / "truth.json" : options.truth;
+  const std::size_t all = read_truth(truth, options.batch / "truth.sha256").size();
+  if (cases.size() < all)
+    out << "not answered so far, and left out: " << all - cases.size() << '\n';
   out << cases.size()
       << " cases; truth as sealed: " << read_file(options.batch / "truth.sha256").substr(0, 64)
       << "\n\n";

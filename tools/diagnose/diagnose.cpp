@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/diagnose/search_start.h"
 #include "tools/diagnose/costly_search.h"
 #include "tools/diagnose/evidence_text.h"
 #include "tools/diagnose/foot_effects.h"
@@ -11,6 +10,7 @@
 #include "tools/diagnose/next_experiment.h"
 #include "tools/diagnose/quality.h"
 #include "tools/diagnose/rollout_errors.h"
+#include "tools/diagnose/search_start.h"
 #include "tools/diagnose/where.h"
 
 namespace hoof::tools {
@@ -201,9 +201,11 @@ EffectFinding Diagnosis::finding(const sim::EffectInfo* effect) const {
   finding.name = effect->name;
   const auto marginal = judgement_.marginals.find(finding.name);
   finding.probability = marginal == judgement_.marginals.end() ? 0 : marginal->second;
-  // Its parameters in the most probable hypothesis that holds it.
-  for (const Standing& s : judgement_.standings) {
-    const auto& effects = s.fit->effects;
+  // Its parameters in what is named, else in the most probable hypothesis that holds it.
+  std::vector<const Fit*> fits = {winner_};
+  for (const Standing& s : judgement_.standings) fits.push_back(s.fit);
+  for (const Fit* fit : fits) {
+    const auto& effects = fit->effects;
     const auto at = std::find(effects.begin(), effects.end(), effect);
     if (at == effects.end()) continue;
     const Layout layout(model_, effects);
@@ -211,8 +213,8 @@ EffectFinding Diagnosis::finding(const sim::EffectInfo* effect) const {
     for (auto e = effects.begin(); e != at; ++e) i += static_cast<int>((*e)->parameters.size());
     for (std::size_t k = 0; k < effect->parameters.size(); ++k, ++i) {
       const int c = layout.setup_count() + i;
-      const double x = s.fit->x[c];
-      const double deviation = std::sqrt(std::max(s.fit->covariance(c, c), 0.0));
+      const double x = fit->x[c];
+      const double deviation = std::sqrt(std::max(fit->covariance(c, c), 0.0));
       const double wide = std::hypot(kWide * deviation, kLeastWide);
       ParameterEstimate estimate{std::string(effect->parameters[k].name), layout.effect_value(i, x),
                                  std::string(effect->parameters[k].unit),

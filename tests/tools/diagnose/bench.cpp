@@ -16,8 +16,8 @@ using namespace hoof::tools;
 constexpr double kMass_kg = 0.5, kLength_m = 0.15, kGravity_m_s2 = 9.81, kLimit_Nm = 6;
 constexpr double kCoulomb_Nm = 0.05, kViscous = 0.02, kInertia = 0.5 * 0.15 * 0.15 + 0.002;
 
-/// Two sines, then a ramp there and back, then steps.
-double goal_at(double time_s, double length_s, double factor) {
+/// Two sines, then a ramp there and back, then steps or quick moves.
+double goal_at(double time_s, double length_s, double factor, double move_s) {
   const double third_s = length_s / 3;
   if (time_s < third_s) {
     return 0.7 * std::sin(4 * factor * time_s) + 0.3 * std::sin(9 * factor * time_s);
@@ -26,7 +26,13 @@ double goal_at(double time_s, double length_s, double factor) {
     const double share = (time_s - third_s) / third_s;
     return 1.2 * (1 - std::abs(2 * share - 1));
   }
-  return int((time_s - 2 * third_s) / 0.7) % 2 == 0 ? 0.6 : -0.4;
+  constexpr double kEvery_s = 0.7;
+  const double since_s = time_s - 2 * third_s;
+  const int moves = int(since_s / kEvery_s);
+  const double from = moves == 0 ? 0 : moves % 2 == 0 ? -0.4 : 0.6;
+  const double to = moves % 2 == 0 ? 0.6 : -0.4;
+  const double moved_s = since_s - moves * kEvery_s;
+  return moved_s >= move_s ? to : from + (to - from) * moved_s / move_s;
 }
 
 }  // namespace
@@ -57,7 +63,7 @@ DataSet pendulum_bench(const PendulumBench& bench) {
   const int every = int(std::lround(bench.step_s / dt_s));
   double q = 0, w = 0;
   for (int i = 0; i * dt_s < bench.length_s; ++i) {
-    const double goal = goal_at(i * dt_s, bench.length_s, bench.speed_factor);
+    const double goal = goal_at(i * dt_s, bench.length_s, bench.speed_factor, bench.move_s);
     const double torque = std::clamp(bench.kp * (goal - q) - bench.kd * w, -kLimit_Nm, kLimit_Nm);
     if (i % every == 0) {
       double seen = q + bench.position_noise * normal(random);

@@ -15,6 +15,8 @@ struct PendulumBench {
   double position_noise = 0.001, velocity_noise = 0.02, torque_noise = 0.02;  // SI
   double speed_factor = 1;                                                    // of the goals
   double encoder_step_rad = 0;  // 0: as fine as numbers are
+  /// Of the last third's steps: 0 at once. When between two samples a jump came no recording tells.
+  double move_s = 0;
 };
 
 /// A link under the law "impedance" that follows sines, ramps and steps, with dry and viscous

@@ -28,6 +28,7 @@ fs::path write_two(const DataFolder& folder) {
   PendulumBench bench;
   bench.length_s = 2;
   bench.step_s = 0.01;
+  bench.move_s = 0.05;
   DataSet set = pendulum_bench(bench);
   bench.seed = 2;
   bench.speed_factor = 0.7;
