@@ -6,9 +6,9 @@
 #include <cmath>
 #include <thread>
 
-#include "tools/diagnose/search_start.h"
 #include "tools/diagnose/linear_look.h"
 #include "tools/diagnose/noise_left.h"
+#include "tools/diagnose/search_start.h"
 
 namespace hoof::tools {
 namespace {

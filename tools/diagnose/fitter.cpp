@@ -63,13 +63,14 @@ Fitter::Fitter(const RigModel& model) : model_(&model) {
     for (std::size_t c = 0; c < model.channels(i).size(); ++c) {
       const std::string& name = model.channels(i)[c];
       const auto& values = recording.channels.at(name);
-      Group group{i, static_cast<int>(c), recording.holdout, 0, 0, 1, 0};
+      Group group{i, static_cast<int>(c), recording.holdout, 0, 0, 0, 1, 0};
       for (const double v : values) group.samples += std::isfinite(v) ? 1 : 0;
       const double seen = estimate_noise(recording.time_s, values);
       const double stated = model.stated_noise(i, name);
       // A drive hands the noise of its sensor on to its torque: what is seen may be more than what
       // is stated of the sensor alone.
       group.noise = std::max({stated, seen, 1e-4 * rms(values), 1e-12});
+      group.floor = std::hypot(group.noise, model.input_noise(i, name));
       group.sigma = group.noise;
       groups_.push_back(group);
     }

@@ -15,6 +15,7 @@ struct Group {
   int channel = 0;  // in RigModel::channels
   bool holdout = false;
   double noise = 0;      // of the sensor, SI
+  double floor = 0;      // what a perfect model leaves: noise, and what noise of the inputs makes
   double sigma = 0;      // what residuals are divided by
   double effective = 1;  // share of the samples that are independent
   double samples = 0;    // that are there

@@ -57,7 +57,7 @@ double foretold(const Fitter& fitter, const Fit& fit, const Fit& none) {
   for (std::size_t g = 0; g < fitter.groups().size(); ++g) {
     const Group& group = fitter.groups()[g];
     if (!group.holdout || group.samples < 1) continue;
-    const double floor = group.noise * group.noise;
+    const double floor = group.floor * group.floor;
     const double before = std::max(none.squares[g] / group.samples, floor);
     const double after = std::max(fit.squares[g] / group.samples, floor);
     sum += 0.5 * std::log(before / after);
@@ -76,7 +76,7 @@ Gains gains(const Fitter& fitter, const Fit& fit, const Fit& none) {
   for (std::size_t g = 0; g < fitter.groups().size(); ++g) {
     const Group& group = fitter.groups()[g];
     if (group.samples < 1) continue;
-    const double floor = group.noise * group.noise;
+    const double floor = group.floor * group.floor;
     const double before = std::max(none.squares[g] / group.samples, floor);
     const double after = std::max(fit.squares[g] / group.samples, floor);
     sum.made += 0.5 * group.samples * std::log(before / after);
@@ -122,7 +122,7 @@ double structure(const Fitter& fitter, const Fit& fit) {
   for (std::size_t g = 0; g < fitter.groups().size(); ++g) {
     const Group& group = fitter.groups()[g];
     if (group.holdout || group.samples < 1) continue;
-    const double noise = group.noise * group.noise;
+    const double noise = group.floor * group.floor;
     const double above = std::max(fit.squares[g] / (group.samples * noise) - 1, 0.0);
     sum += 0.5 * group.samples * std::log1p((1 - group.effective) * above);
     samples += group.samples;

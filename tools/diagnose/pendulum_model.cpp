@@ -132,6 +132,7 @@ PendulumModel::PendulumModel(std::vector<DataSet> data_sets) : data_sets_(std::m
       for (auto& [name, values] : recording.channels) {
         if (is_input(name, recording.setup.law)) fill_gaps(values);
         if (name == "torque" && recording.setup.law == DriveLaw::kTorque) {
+          input_noise_Nm_[&recording] = estimate_noise(recording.time_s, values);
           values = without_noise(recording.time_s, values);
         }
       }
@@ -260,7 +261,8 @@ void PendulumModel::choose_correction(Run& run) const {
   double position = stated_noise(*run.data_set, "position");
   if (position <= 0) position = estimate_noise(t, channel(recording, "position"));
   double torque = stated_noise(*run.data_set, "torque");
-  if (torque <= 0) torque = estimate_noise(t, channel(recording, "torque"));
+  // Of the torque as recorded: smoothed it has less, and as much where it drives the joint.
+  if (torque <= 0) torque = input_noise_Nm_.at(&recording);
   if (position <= 0 || torque <= 0 || J <= 0) return;
   Eigen::Matrix2d A;
   A << 1, dt, -s.gravity_torque_Nm() * dt / J, 1 - s.viscous_Nm_s_rad * dt / J;

@@ -74,6 +74,7 @@ class PendulumModel final : public RigModel {
   void measure_effort();
 
   std::vector<DataSet> data_sets_;
+  std::map<const Recording*, double> input_noise_Nm_;  // of torques that are inputs, as recorded
   std::vector<Run> runs_;
   std::vector<DoubtfulValue> doubtful_;
   std::vector<const sim::EffectInfo*> effects_;
