@@ -60,11 +60,15 @@ void print_measures(const std::vector<Measure>& measures, std::ostream& out) {
   }
 }
 
-std::vector<GradedCase> read_cases(const GradeOptions& options) {
+/// @param left_out how many have no answer, where those do not count
+std::vector<GradedCase> read_cases(const GradeOptions& options, std::size_t& left_out) {
   const fs::path truth = options.truth.empty() ? options.batch / "truth.json" : options.truth;
   std::vector<GradedCase> cases;
   for (const TruthCase& one : read_truth(truth, options.batch / "truth.sha256")) {
-    if (options.answered && !fs::exists(options.answers / one.name)) continue;
+    if (options.answered && !fs::exists(options.answers / one.name)) {
+      ++left_out;
+      continue;
+    }
     GradedCase graded{one, std::nullopt, ""};
     try {
       graded.answer = read_answer(options.answers / one.name);
@@ -201,7 +205,8 @@ void write_cases(const fs::path& file, const std::vector<GradedCase>& cases, con
 }  // namespace
 
 void grade(const GradeOptions& options, std::ostream& out) {
-  const std::vector<GradedCase> cases = read_cases(options);
+  std::size_t left_out = 0;
+  const std::vector<GradedCase> cases = read_cases(options, left_out);
   std::vector<TruthCase> truths;
   Picks tool;
   for (const GradedCase& c : cases) {
@@ -211,10 +216,7 @@ void grade(const GradeOptions& options, std::ostream& out) {
   std::vector<Measure> measures = verdict_measures(truths, tool);
   const std::vector<Measure> more = answer_measures(cases);
   measures.insert(measures.end(), more.begin(), more.end());
-  const fs::path truth = options.truth.empty() ? options.batch / "truth.json" : options.truth;
-  const std::size_t all = read_truth(truth, options.batch / "truth.sha256").size();
-  if (cases.size() < all)
-    out << "not answered so far, and left out: " << all - cases.size() << '\n';
+  if (left_out > 0) out << "not answered so far, and left out: " << left_out << '\n';
   out << cases.size()
       << " cases; truth as sealed: " << read_file(options.batch / "truth.sha256").substr(0, 64)
       << "\n\n";

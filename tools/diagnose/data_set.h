@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,12 @@ struct Recording {
   std::map<std::string, std::vector<double>> channels;
 
   bool has(const std::string& channel) const { return channels.contains(channel); }
+  /// Empty where it was not recorded.
+  std::span<const double> values(const std::string& channel) const {
+    const auto found = channels.find(channel);
+    if (found == channels.end()) return {};
+    return found->second;
+  }
 };
 
 struct DataSet {

@@ -63,7 +63,7 @@ Fitter::Fitter(const RigModel& model) : model_(&model) {
     for (std::size_t c = 0; c < model.channels(i).size(); ++c) {
       const std::string& name = model.channels(i)[c];
       const auto& values = recording.channels.at(name);
-      Group group{i, static_cast<int>(c), recording.holdout, 0, 0, 0, 1, 0};
+      Group group{.recording = i, .channel = static_cast<int>(c), .holdout = recording.holdout};
       for (const double v : values) group.samples += std::isfinite(v) ? 1 : 0;
       const double seen = estimate_noise(recording.time_s, values);
       const double stated = model.stated_noise(i, name);

@@ -180,12 +180,10 @@ Judgement judge(const Fitter& fitter, const SearchResult& result) {
   double top = -1e300;
   std::vector<double> score;
   for (const Fit& fit : result.fits) {
-    Standing s{&fit,
-               listed(fit.effects),
-               fit.log_evidence - none.log_evidence,
-               holdout_gain(fitter, fit, none),
-               0,
-               0};
+    Standing s{.fit = &fit,
+               .listed = listed(fit.effects),
+               .evidence = fit.log_evidence - none.log_evidence,
+               .holdout_gain = holdout_gain(fitter, fit, none)};
     const Gains g = gains(fitter, fit, none);
     s.explained = g.possible > 0 ? g.made / g.possible : 1;
     s.foretold = foretold(fitter, fit, none);
@@ -206,19 +204,14 @@ Judgement judge(const Fitter& fitter, const SearchResult& result) {
   suspect_unknown(j.standings, whole);
   const Gains all = gains(fitter, none, none);
   j.misfit = all.samples > 0 ? all.possible / all.samples : 0;
-  for (const Standing& s : j.standings) {
-    if (s.listed) {
-      j.best_explained = s.explained;
-      break;
-    }
-  }
   for (const sim::EffectInfo* effect : fitter.model().effects()) {
     if (effect->listed) j.marginals[std::string(effect->name)] = 0;
   }
   for (Standing& s : j.standings) {
     if (s.fit->effects.empty()) {
-      j.none += (1 - s.insufficient) * s.probability;
       j.unknown += s.insufficient * s.probability;
+      s.probability *= 1 - s.insufficient;
+      j.none += s.probability;
     } else if (!s.listed) {
       j.unknown += s.probability;
     } else {

@@ -35,9 +35,8 @@ struct Judgement {
   std::vector<Standing> standings;          // the most probable first
   double none = 0, unknown = 0;             // probabilities
   std::map<std::string, double> marginals;  // of each listed effect
-  /// Log likelihood that lies between the nominal model and bare noise, per independent sample.
+  /// Log likelihood that lies between the nominal model and bare noise, per sample.
   double misfit = 0;
-  double best_explained = 0;  // of the most probable listed hypothesis
 };
 
 Judgement judge(const Fitter& fitter, const SearchResult& result);

@@ -53,12 +53,6 @@ constexpr std::array kKeys = {
     PendulumKey{"torque_limit", &PendulumSettings::torque_limit_Nm, false, false, true},
 };
 
-std::span<const double> channel(const Recording& recording, const std::string& name) {
-  const auto found = recording.channels.find(name);
-  if (found == recording.channels.end()) return {};
-  return found->second;
-}
-
 /// Whether a key changes what is predicted. The torque constant does under every law but the
 /// recorded torque's: it makes the current of a commanded torque.
 bool used(const PendulumKey& key, DriveLaw law) {
@@ -159,14 +153,14 @@ void PendulumModel::add(const DataSet& data_set, const Recording& recording) {
     }
   }
   run.inputs = {recording.time_s,
-                channel(recording, "position_goal"),
-                channel(recording, "velocity_goal"),
-                channel(recording, "torque_ff"),
-                channel(recording, "enable"),
-                channel(recording, "supply_voltage"),
-                law == DriveLaw::kTorque ? channel(recording, "torque") : std::span<const double>(),
+                recording.values("position_goal"),
+                recording.values("velocity_goal"),
+                recording.values("torque_ff"),
+                recording.values("enable"),
+                recording.values("supply_voltage"),
+                law == DriveLaw::kTorque ? recording.values("torque") : std::span<const double>(),
                 nullptr,
-                channel(recording, "position")};
+                recording.values("position")};
   for (const char* name : {"position", "velocity", "torque", "current"}) {
     if (recording.has(name) && !is_input(name, law)) run.channels.push_back(name);
   }
@@ -227,7 +221,7 @@ void PendulumModel::add_timing(Run& run) {
 
 /// A drive turns off somewhere between two samples; a swing that begins there remembers when.
 void PendulumModel::add_switch_timing(Run& run, double sample_s) {
-  const auto enable = channel(*run.recording, "enable");
+  const auto enable = run.recording->values("enable");
   const auto turns = [](double a, double b) { return (a > 0.5) != (b > 0.5); };
   const bool switched = std::adjacent_find(enable.begin(), enable.end(), turns) != enable.end();
   if (!switched || run.recording->holdout) return;
@@ -259,7 +253,7 @@ void PendulumModel::choose_correction(Run& run) const {
   const PendulumSettings& s = run.settings;
   const double J = s.link_inertia_kg_m2() + s.armature_kg_m2;
   double position = stated_noise(*run.data_set, "position");
-  if (position <= 0) position = estimate_noise(t, channel(recording, "position"));
+  if (position <= 0) position = estimate_noise(t, recording.values("position"));
   double torque = stated_noise(*run.data_set, "torque");
   // Of the torque as recorded: smoothed it has less, and as much where it drives the joint.
   if (torque <= 0) torque = input_noise_Nm_.at(&recording);
@@ -323,7 +317,7 @@ void PendulumModel::measure_effort() {
     std::vector<double> effort;
     double scale = 1;
     for (const char* name : {"torque", "current"}) {
-      const auto recorded = channel(*run.recording, name);
+      const auto recorded = run.recording->values(name);
       if (!effort.empty() || recorded.empty()) continue;
       effort.assign(recorded.begin(), recorded.end());
       if (std::string_view(name) == "current") scale = run.settings.kt_Nm_A;

@@ -19,12 +19,6 @@ constexpr std::size_t kFewest = 5;
 /// A torque at its limit tells nothing of the angle.
 constexpr double kFree = 0.95;
 
-std::span<const double> channel(const Recording& recording, const std::string& name) {
-  const auto found = recording.channels.find(name);
-  if (found == recording.channels.end()) return {};
-  return found->second;
-}
-
 /// Mean of values with one known deviation, as it grows.
 struct Mean {
   double sum = 0, count = 0;
@@ -121,8 +115,8 @@ StartOfPath start_of_path(std::span<const double> time_s, std::span<const double
 
 void PendulumModel::estimate_start(Run& run) const {
   const Recording& recording = *run.recording;
-  const auto position = channel(recording, "position");
-  const auto velocity = channel(recording, "velocity");
+  const auto position = recording.values("position");
+  const auto velocity = recording.values("velocity");
   const auto first =
       std::find_if(position.begin(), position.end(), [](double v) { return std::isfinite(v); });
   run.start.position_rad = first == position.end() ? 0 : *first;
@@ -139,11 +133,11 @@ void PendulumModel::estimate_start(Run& run) const {
 /// tenth of a second.
 void PendulumModel::start_in_motion(Run& run) const {
   const Recording& recording = *run.recording;
-  const auto position = channel(recording, "position");
+  const auto position = recording.values("position");
   double noise = stated_noise(*run.data_set, "position");
   noise = std::max(noise, estimate_noise(recording.time_s, position));
   const bool measured = recording.has("velocity");
-  const auto velocity = channel(recording, "velocity");
+  const auto velocity = recording.values("velocity");
   double speed_doubt = 0;
   if (measured) {
     speed_doubt = std::max(stated_noise(*run.data_set, "velocity"),
@@ -163,7 +157,7 @@ void PendulumModel::start_in_motion(Run& run) const {
 /// torque tells of the same angle, have less of it.
 void PendulumModel::start_at_rest(Run& run) const {
   const Recording& recording = *run.recording;
-  const auto position = channel(recording, "position");
+  const auto position = recording.values("position");
   double noise = stated_noise(*run.data_set, "position");
   noise = std::max(noise, estimate_noise(recording.time_s, position));
   const std::size_t n = noise > 0 ? still_samples(position, noise) : 0;
@@ -175,14 +169,14 @@ void PendulumModel::start_at_rest(Run& run) const {
   if (angle.count < kFewest) return;
   run.fitted_start.velocity_rad_s = 0;
   run.fitted_start.position_rad = angle.value();
-  const auto torque = channel(recording, "torque");
-  const auto goal = channel(recording, "position_goal");
+  const auto torque = recording.values("torque");
+  const auto goal = recording.values("position_goal");
   const sim::PendulumSettings& s = run.settings;
   const bool exact = run.doubts.count("kp") == 0 && run.doubts.count("kd") == 0;
   if (s.law != PendulumLaw::kImpedance || torque.empty() || !exact || s.kp_Nm_rad <= 0) return;
-  const auto velocity_goal = channel(recording, "velocity_goal");
-  const auto feed_forward = channel(recording, "torque_ff");
-  const auto enable = channel(recording, "enable");
+  const auto velocity_goal = recording.values("velocity_goal");
+  const auto feed_forward = recording.values("torque_ff");
+  const auto enable = recording.values("enable");
   Mean by_torque;
   for (std::size_t i = 0; i < n; ++i) {
     const bool off = !enable.empty() && enable[i] < 0.5;

@@ -10,7 +10,9 @@
 namespace hoof::tools {
 namespace {
 
-/// Half of a reported interval is twice the normal's (diagnose.cpp): variances count four times.
+/// Variances of a fit count four times: a model's own errors look like no noise. (Reported
+/// intervals are wider still, diagnose.cpp: they are to hold the truth, these are to rank
+/// experiments.)
 constexpr double kTemperOfIntervals = 4;
 /// Of a channel's range: no sensor is better.
 constexpr double kLeastNoise = 1e-4;

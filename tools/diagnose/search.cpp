@@ -24,7 +24,7 @@ class Search {
     fit_nominal();
     fit_singles();
     fit_pairs();
-    if (options_.crosswise) fit_crosswise();
+    fit_crosswise();
     take_noise_of_best();
     fit_contenders();
     say(1, "done");
@@ -42,12 +42,9 @@ class Search {
     Fit nominal;
     nominal.x = layout.stated();
     nominal = settle(nominal);
-    if (options_.restrained) {
-      result_.fits = {nominal};
-      held_ = restrained();
-      Fit other = settle(held_);
-      if (other.objective < nominal.objective) nominal = std::move(other);
-    }
+    held_ = restrained();
+    Fit other = settle(held_);
+    if (other.objective < nominal.objective) nominal = std::move(other);
     fitter_.judge(nominal);
     result_.fits = {nominal};
   }
@@ -210,7 +207,7 @@ class Search {
   Fit restrained() {
     constexpr double kPull = 40;  // samples' worth that the recordings pull with
     Fit fit;
-    fit.x = Eigen::VectorXd::Zero(result_.fits[0].x.size());
+    fit.x = Layout(fitter_.model(), {}).stated();
     double samples = 1;
     for (const Group& g : fitter_.groups()) samples += g.holdout ? 0 : g.samples;
     for (int round = 0; round < 2; ++round) {
@@ -230,18 +227,11 @@ class Search {
   void fit_singles() {
     say(0.05, "one effect");
     std::vector<SearchStart> singles = look_beside(result_.fits[0], options_.fits_of_single);
-    if (options_.restrained) {
-      Fitter::Weights weights = fitter_.roomy_weights(held_.squares, 0.3);
-      weights.until = rough_weights_.until;
-      for (SearchStart& c : look_beside(held_, options_.fits_of_single, weights)) {
-        c.weights = &rough_weights_;
-        singles.push_back(std::move(c));
-      }
-    }
-    if (static_cast<int>(singles.size()) > options_.singles) {
-      std::stable_sort(singles.begin(), singles.end(),
-                       [](const SearchStart& a, const SearchStart& b) { return a.gain > b.gain; });
-      singles.resize(options_.singles);
+    Fitter::Weights weights = fitter_.roomy_weights(held_.squares, 0.3);
+    weights.until = rough_weights_.until;
+    for (SearchStart& c : look_beside(held_, options_.fits_of_single, weights)) {
+      c.weights = &rough_weights_;
+      singles.push_back(std::move(c));
     }
     follow(most_promising(singles, options_.follow_singles), 0.1, 0.45, "one effect");
   }

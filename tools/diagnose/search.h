@@ -15,15 +15,12 @@ struct SearchOptions {
   std::function<bool(double, const std::string&)> progress;
   /// Starts of each effect that are fitted, beside the nominal fit and beside the setup as stated.
   int fits_of_single = 2;
-  bool restrained = true;    // beside the setup as stated too
   int rough_iterations = 3;  // of each start, to choose those that are followed; 0: all are
   int follow_singles = 16, follow_pairs = 10;  // hypotheses that are followed to the end
   int pair_fits = 20;                          // pairs that are fitted
   int iterations = 10;
-  int singles = 1000;     // effects that are fitted alone, those that a first look promises most of
-  int pair_bases = 4;     // single effects that others are tried beside
-  bool crosswise = true;  // rivals are fitted again from where the best are
-  int contenders = 16;    // fitted anew with the noise as the best of them leaves it
+  int pair_bases = 4;   // single effects that others are tried beside
+  int contenders = 16;  // fitted anew with the noise as the best of them leaves it
 };
 
 struct SearchResult {

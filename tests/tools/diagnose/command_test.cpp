@@ -107,7 +107,8 @@ TEST_CASE("diagnose answers in files and ten lines, alike for any number of thre
   CHECK(again.status == 2);
   CHECK_THAT(again.output, Catch::Contains("--force replaces it"));
 
-  // The model that was found is the model that is simulated.
+  // The model that was found is the model that is simulated; a stand-in for what is unknown is not.
+  CHECK(nlohmann::json::parse(read_file(one / "verdict.json"))["verdict"] != "unknown_physics");
   const fs::path simulated = folder.path() / "simulated";
   const ShellOutcome run =
       hoof_program("simulate " + set + " --effects " + (one / "improved.toml").string() +
