@@ -19,12 +19,20 @@ constexpr double kToothDamping = 0.7;
 constexpr double kSpringDamping = 0.02;
 constexpr double kGearStep_s = 0.5e-3;
 
-/// A recorded input between its samples: linear, or the nearest where it is a switch. Cursors only
-/// go forward but for goals that are read late.
+/// Of a switch within a span of time: on or off at its start and end, and the share before it
+/// turns.
+struct Switching {
+  bool first = true, last = true;
+  double until = 1;
+};
+
+/// A recorded input between its samples: linear, a cubic where slopes are known, or the nearest
+/// where it is a switch. Cursors only go forward but for goals that are read late.
 class Signal {
  public:
-  Signal(std::span<const double> time_s, std::span<const double> values)
-      : time_s_(time_s), values_(values) {}
+  Signal(std::span<const double> time_s, std::span<const double> values,
+         std::span<const double> slopes = {})
+      : time_s_(time_s), values_(values), slopes_(slopes) {}
 
   bool present() const { return !values_.empty(); }
 
@@ -32,24 +40,28 @@ class Signal {
     seek(t_s);
     const std::size_t i = cursor_;
     if (i + 1 >= values_.size() || t_s <= time_s_[i]) return values_[i];
-    const double share = (t_s - time_s_[i]) / (time_s_[i + 1] - time_s_[i]);
-    return values_[i] + share * (values_[i + 1] - values_[i]);
+    const double span = time_s_[i + 1] - time_s_[i];
+    const double x = (t_s - time_s_[i]) / span;
+    const double rise = values_[i + 1] - values_[i];
+    if (slopes_.empty()) return values_[i] + x * rise;
+    const double a = span * slopes_[i], b = span * slopes_[i + 1];
+    return values_[i] + x * (a + x * (3 * rise - 2 * a - b + x * (a + b - 2 * rise)));
   }
   std::size_t nearest(double t_s) {
     seek(t_s);
     const std::size_t i = cursor_;
     return i + 1 < time_s_.size() && time_s_[i + 1] - t_s < t_s - time_s_[i] ? i + 1 : i;
   }
-  /// Of a switch, the share of a span of time for which it is on. It turned somewhere between two
-  /// samples, in the middle for all that is known.
-  double share_on(double from_s, double to_s) {
-    const bool first = values_[nearest(from_s)] > 0.5;
+  /// A switch turned somewhere between two samples, in the middle for all that is known.
+  Switching switching(double from_s, double to_s) {
+    Switching s;
+    s.first = values_[nearest(from_s)] > 0.5;
     const std::size_t i = nearest(to_s);
-    const bool last = values_[i] > 0.5;
-    if (first == last || i == 0) return last ? 1 : 0;
+    s.last = values_[i] > 0.5;
+    if (s.first == s.last || i == 0) return s;
     const double turned_s = 0.5 * (time_s_[i - 1] + time_s_[i]);
-    const double share = std::clamp((turned_s - from_s) / (to_s - from_s), 0.0, 1.0);
-    return first ? share : 1 - share;
+    s.until = std::clamp((turned_s - from_s) / (to_s - from_s), 0.0, 1.0);
+    return s;
   }
 
  private:
@@ -58,7 +70,7 @@ class Signal {
     while (cursor_ + 1 < time_s_.size() && time_s_[cursor_ + 1] <= t_s + 1e-9) ++cursor_;
   }
 
-  std::span<const double> time_s_, values_;
+  std::span<const double> time_s_, values_, slopes_;
   std::size_t cursor_ = 0;
 };
 
@@ -95,8 +107,8 @@ class Pendulum {
         stages_(effects),
         correction_(correction),
         out_(out),
-        goal_(in.time_s, in.position_goal_rad),
-        velocity_goal_(in.time_s, in.velocity_goal_rad_s),
+        goal_(in.time_s, in.position_goal_rad, in.position_goal_slope_rad_s),
+        velocity_goal_(in.time_s, in.velocity_goal_rad_s, in.velocity_goal_slope_rad_s2),
         feed_forward_(in.time_s, in.torque_ff_Nm),
         enable_(in.time_s, in.enable),
         supply_(in.time_s, in.supply_V),
@@ -127,6 +139,7 @@ class Pendulum {
   void evaluate_law(double t_s);
   double drive_torque_Nm();
   double friction_Nm(double w, double coulomb_direction) const;
+  void advance(double t_s);
   void step();
   void step_geared();
   double link_torque_Nm(double q, double w) const;
@@ -155,7 +168,7 @@ class Pendulum {
   double external_Nm_ = 0;                // of gravity and springs on the link
   double position_goal_ = 0, velocity_goal_now_ = 0, feed_forward_now_ = 0;
   bool enabled_ = true;
-  double on_share_ = 1;  // of the period of the law for which the drive is on
+  double law_Nm_ = 0;  // what the law asks for; the drive gives it where it is on
   double duty_ = 0, volt_ = 0, command_Nm_ = 0, motor_Nm_ = 0, current_A_ = 0;
   double way_ = 0;    // of the last slide
   double now_s_ = 0;  // since the first sample
@@ -220,11 +233,8 @@ void Pendulum::read_goals(double t_s) {
 }
 
 void Pendulum::evaluate_law(double t_s) {
-  const double begin = t_s - s_.switch_late_s;
-  on_share_ = enable_.present() ? enable_.share_on(begin, begin + h_ * steps_per_law_) : 1;
-  enabled_ = on_share_ > 0;
   if (s_.law == PendulumLaw::kTorque) {
-    command_Nm_ = torque_.at(std::max(t_s - s_.input_late_s, in_.time_s.front()));
+    law_Nm_ = torque_.at(std::max(t_s - s_.input_late_s, in_.time_s.front()));
     return;
   }
   read_goals(t_s);
@@ -236,8 +246,7 @@ void Pendulum::evaluate_law(double t_s) {
   }
   const double torque = s_.kp_Nm_rad * error +
                         s_.kd_Nm_s_rad * (velocity_goal_now_ - slope(q_) * w_) + feed_forward_now_;
-  command_Nm_ = std::clamp(torque, -s_.torque_limit_Nm, s_.torque_limit_Nm);
-  command_Nm_ *= on_share_;
+  law_Nm_ = std::clamp(torque, -s_.torque_limit_Nm, s_.torque_limit_Nm);
 }
 
 double Pendulum::drive_torque_Nm() {
@@ -248,8 +257,10 @@ double Pendulum::drive_torque_Nm() {
       if (!supply_.present()) volt = effect->supply_V(volt, current_A_, duty_);
     }
     const double share = s_.kt_Nm_A / s_.resistance_ohm;
-    command_Nm_ = on_share_ * share * (duty_ * volt - s_.kt_Nm_A * w_);
+    command_Nm_ = enabled_ ? share * (duty_ * volt - s_.kt_Nm_A * w_) : 0;
     current_A_ = command_Nm_ / s_.kt_Nm_A;
+  } else {
+    command_Nm_ = enabled_ || s_.law == PendulumLaw::kTorque ? law_Nm_ : 0;
   }
   double torque = command_Nm_;
   if (enabled_) {
@@ -313,6 +324,24 @@ double Pendulum::slide(double w0, double push, double inertia, double h) {
   const double back = (push - std::copysign(holding, push)) * rest / inertia;
   way_ = way + 0.5 * rest * back;
   return back;
+}
+
+/// One step, in two parts where the drive turns on or off within it: half a step at full torque is
+/// not a step at half of it where a joint sticks.
+void Pendulum::advance(double t_s) {
+  const auto part = [this](double length) {
+    const double whole = h_;
+    h_ = length;
+    geared_ ? step_geared() : step();
+    h_ = whole;
+  };
+  if (!enable_.present()) return part(h_);
+  const double from = t_s - s_.switch_late_s;
+  const Switching turn = enable_.switching(from, from + h_);
+  enabled_ = turn.first;
+  if (turn.until > 0) part(turn.until * h_);
+  enabled_ = turn.last;
+  if (turn.until < 1) part((1 - turn.until) * h_);
 }
 
 void Pendulum::step() {
@@ -391,7 +420,7 @@ void Pendulum::run() {
     now_s_ = t - start;
     q0_ = q_;
     w0_ = w_;
-    geared_ ? step_geared() : step();
+    advance(t);
     const std::size_t first = next;
     while (next < n && in_.time_s[next] < t + h_ * (1 - 1e-9)) {
       sample(next, std::max(0.0, (in_.time_s[next] - t) / h_));

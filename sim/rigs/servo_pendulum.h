@@ -58,6 +58,10 @@ struct PendulumInputs {
   std::span<const double> supply_V;
   std::span<const double> torque_Nm;  // of the law kTorque
 
+  /// Of goals between their samples: a cubic by these at the samples; empty: linear.
+  std::span<const double> position_goal_slope_rad_s;
+  std::span<const double> velocity_goal_slope_rad_s2;
+
   /// Where known: at which samples the drive went without a new goal; null: all arrived.
   const std::vector<bool>* lost = nullptr;
 

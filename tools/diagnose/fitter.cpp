@@ -129,45 +129,61 @@ std::vector<std::size_t> Fitter::followed_until(const Fit& fit) const {
 
 Eigen::VectorXd Fitter::residuals(const Layout& layout, const Eigen::VectorXd& x,
                                   const Weights& weights) const {
+  Eigen::Index samples = 0;
+  for (const Group& group : groups_) {
+    const std::string& name = model_->channels(group.recording)[group.channel];
+    const auto& measured = model_->recording(group.recording).channels.at(name);
+    if (!group.holdout) samples += static_cast<Eigen::Index>(measured.size());
+  }
+  Eigen::VectorXd r(samples + layout.size());
+  fill(layout, x, weights, -1, r);
+  return r;
+}
+
+/// @param only the recording to predict anew, the others' rows stay; -1: all
+void Fitter::fill(const Layout& layout, const Eigen::VectorXd& x, const Weights& weights, int only,
+                  Eigen::VectorXd& r) const {
   const std::vector<double> setup = layout.setup(x);
   const std::vector<ActiveEffect> active = layout.active(x);
-  std::vector<double> all;
   Prediction prediction;
   int predicted = -1;
+  Eigen::Index row = 0;
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const Group& group = groups_[g];
     if (group.holdout) continue;
+    const std::string& name = model_->channels(group.recording)[group.channel];
+    const auto& measured = model_->recording(group.recording).channels.at(name);
+    if (only >= 0 && group.recording != only) {
+      row += static_cast<Eigen::Index>(measured.size());
+      continue;
+    }
     if (group.recording != predicted) {
       prediction = model_->predict(group.recording, setup, active, Rollout::kCorrected);
       predicted = group.recording;
     }
-    const std::string& name = model_->channels(group.recording)[group.channel];
-    const auto& measured = model_->recording(group.recording).channels.at(name);
     const auto& values = prediction[group.channel];
     const std::size_t until =
         weights.until.empty() ? measured.size() : weights.until[group.recording];
     for (std::size_t i = 0; i < measured.size(); ++i) {
       const double difference = (measured[i] - values[i]) * weights.scale[g];
       const bool missing = !std::isfinite(measured[i]) || i >= until;
-      all.push_back(missing ? 0 : std::isfinite(difference) ? bent(difference) : bent(kLargest));
+      r[row++] = missing ? 0 : std::isfinite(difference) ? bent(difference) : bent(kLargest);
     }
   }
-  const auto samples = static_cast<Eigen::Index>(all.size());
-  Eigen::VectorXd r(samples + layout.size());
-  r.head(samples) = Eigen::Map<Eigen::VectorXd>(all.data(), samples);
   for (int i = 0; i < layout.size(); ++i) {
-    r[samples + i] = (x[i] - layout.prior_mean(i)) / layout.prior_sigma(i);
+    r[row + i] = (x[i] - layout.prior_mean(i)) / layout.prior_sigma(i);
   }
-  return r;
 }
 
 Eigen::MatrixXd Fitter::jacobian(const Layout& layout, const Eigen::VectorXd& x,
                                  const Eigen::VectorXd& r, const Weights& weights) const {
   Eigen::MatrixXd J(r.size(), layout.size());
   for (int i = 0; i < layout.size(); ++i) {
-    Eigen::VectorXd shifted = x;
+    Eigen::VectorXd shifted = x, there = r;
     shifted[i] += layout.step(i);
-    J.col(i) = (residuals(layout, shifted, weights) - r) / layout.step(i);
+    const bool setup = i < layout.setup_count();
+    fill(layout, shifted, weights, setup ? model_->doubtful()[i].recording : -1, there);
+    J.col(i) = (there - r) / layout.step(i);
   }
   return J;
 }

@@ -77,6 +77,9 @@ class Fitter {
   Prediction predict(const Fit& fit, int recording, Rollout rollout) const;
 
  private:
+  void fill(const Layout& layout, const Eigen::VectorXd& x, const Weights& weights, int only,
+            Eigen::VectorXd& r) const;
+
   const RigModel* model_;
   std::vector<Group> groups_;
 };

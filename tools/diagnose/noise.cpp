@@ -94,24 +94,25 @@ std::vector<double> slopes(std::span<const double> time_s, std::span<const doubl
   return all;
 }
 
-std::vector<double> without_noise(std::span<const double> time_s, std::span<const double> values) {
-  constexpr int kSpan = 9;
+std::vector<double> without_noise(std::span<const double> time_s, std::span<const double> values,
+                                  std::size_t span) {
   constexpr double kMostLeft = 1.5;  // times the noise: a corner or a step lies in the span
   std::vector<double> smooth(values.begin(), values.end());
   const double noise = estimate_noise(time_s, values);
-  if (!(noise > 0)) return smooth;
-  for (std::size_t i = 0; i + kSpan <= values.size(); ++i) {
-    Eigen::Matrix<double, kSpan, 3> A;
-    Eigen::Matrix<double, kSpan, 1> y;
-    const std::size_t middle = i + kSpan / 2;
-    const double scale = time_s[i + kSpan - 1] - time_s[i];
-    for (int k = 0; k < kSpan; ++k) {
-      const double x = 2 * (time_s[i + static_cast<std::size_t>(k)] - time_s[middle]) / scale;
-      A.row(k) << 1, x, x * x;
-      y[k] = values[i + static_cast<std::size_t>(k)];
+  if (!(noise > 0) || span < 5) return smooth;
+  const auto rows = static_cast<Eigen::Index>(span);
+  Eigen::MatrixXd A(rows, 3);
+  Eigen::VectorXd y(rows);
+  for (std::size_t i = 0; i + span <= values.size(); ++i) {
+    const std::size_t middle = i + span / 2;
+    const double scale = time_s[i + span - 1] - time_s[i];
+    for (std::size_t k = 0; k < span; ++k) {
+      const double x = 2 * (time_s[i + k] - time_s[middle]) / scale;
+      A.row(static_cast<Eigen::Index>(k)) << 1, x, x * x;
+      y[static_cast<Eigen::Index>(k)] = values[i + k];
     }
     const Eigen::Vector3d fit = (A.transpose() * A).ldlt().solve(A.transpose() * y);
-    const double left = (y - A * fit).norm() / std::sqrt(kSpan - 3.0);
+    const double left = (y - A * fit).norm() / std::sqrt(static_cast<double>(span) - 3.0);
     if (left < kMostLeft * noise) smooth[middle] = fit[0];
   }
   return smooth;

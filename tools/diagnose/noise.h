@@ -20,9 +20,11 @@ double first_slope(std::span<const double> time_s, std::span<const double> value
 std::vector<double> slopes(std::span<const double> time_s, std::span<const double> values,
                            double span_s);
 
-/// The values less their noise where they are smooth: a parabola through nine neighbours stands in
-/// for the middle one where it leaves no more than the noise; elsewhere they stay.
-std::vector<double> without_noise(std::span<const double> time_s, std::span<const double> values);
+/// The values less their noise where they are smooth: a parabola through `span` neighbours (odd)
+/// stands in for the middle one where it leaves no more than the noise; elsewhere they stay. The
+/// values themselves where the span is less than five.
+std::vector<double> without_noise(std::span<const double> time_s, std::span<const double> values,
+                                  std::size_t span);
 
 double rms(std::span<const double> values);
 

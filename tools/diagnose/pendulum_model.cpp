@@ -20,13 +20,6 @@ using sim::PendulumSettings;
 constexpr double kFreeStep_s = 1e-3;
 constexpr double kLongestStep_s = 1e-3;
 
-/// Doubt of when inputs act: of a control period, and of the time between samples.
-constexpr double kPeriodShare = 0.2;
-constexpr double kSampleShare = 0.05;
-constexpr double kSwitchShare = 0.3;  // uniform over a sample
-/// And no more than this many of its sigmas: what is later still is a delay.
-constexpr double kMostTiming = 2;
-
 struct PendulumKey {
   const char* name;
   double PendulumSettings::*member;
@@ -127,7 +120,10 @@ PendulumModel::PendulumModel(std::vector<DataSet> data_sets) : data_sets_(std::m
         if (is_input(name, recording.setup.law)) fill_gaps(values);
         if (name == "torque" && recording.setup.law == DriveLaw::kTorque) {
           input_noise_Nm_[&recording] = estimate_noise(recording.time_s, values);
-          values = without_noise(recording.time_s, values);
+          for (const std::size_t span : kSmoothingSpans) {
+            smoothed_Nm_[&recording].push_back(without_noise(recording.time_s, values, span));
+          }
+          values = smoothed_Nm_[&recording][kUsualSmoothing];
         }
       }
     }
@@ -152,15 +148,15 @@ void PendulumModel::add(const DataSet& data_set, const Recording& recording) {
                       " lacks the channel " + name + ", which the rig servo_pendulum needs");
     }
   }
-  run.inputs = {recording.time_s,
-                recording.values("position_goal"),
-                recording.values("velocity_goal"),
-                recording.values("torque_ff"),
-                recording.values("enable"),
-                recording.values("supply_voltage"),
-                law == DriveLaw::kTorque ? recording.values("torque") : std::span<const double>(),
-                nullptr,
-                recording.values("position")};
+  run.inputs.time_s = recording.time_s;
+  run.inputs.position_goal_rad = recording.values("position_goal");
+  run.inputs.velocity_goal_rad_s = recording.values("velocity_goal");
+  run.inputs.torque_ff_Nm = recording.values("torque_ff");
+  run.inputs.enable = recording.values("enable");
+  run.inputs.supply_V = recording.values("supply_voltage");
+  if (law == DriveLaw::kTorque) run.inputs.torque_Nm = recording.values("torque");
+  run.inputs.position_rad = recording.values("position");
+  run.goal_slopes = goal_slopes(recording);
   for (const char* name : {"position", "velocity", "torque", "current"}) {
     if (recording.has(name) && !is_input(name, law)) run.channels.push_back(name);
   }
@@ -168,8 +164,11 @@ void PendulumModel::add(const DataSet& data_set, const Recording& recording) {
   if (law == DriveLaw::kTorque || run.settings.kt_Nm_A <= 0) std::erase(run.channels, "current");
   run.longest_step_s = run.settings.control_period_s > 0 ? kLongestStep_s : kFreeStep_s;
   add_doubts(run);
-  estimate_start(run);
   choose_correction(run);
+  estimate_start(run);
+  add_timing(run);
+  add_start_speed(run);
+  add_smoothing(run);
   // Of an experiment to come the noise is not known yet: as in the recordings that were made.
   if (recording.planned && !runs_.empty()) run.correction = runs_.front().correction;
   look_for_losses(run);
@@ -196,39 +195,10 @@ void PendulumModel::add_doubts(Run& run) {
     while (index < static_cast<int>(doubtful_.size()) && doubtful_[index].name != name) ++index;
     if (index == static_cast<int>(doubtful_.size())) {
       doubtful_.push_back({name, value->value, value->sigma, 0});
+      if (own) doubtful_.back().recording = static_cast<int>(runs_.size());
     }
     run.doubts[key.name] = index;
   }
-  add_timing(run);
-}
-
-/// Where within its period a drive takes a goal over, and whether a log holds the goal of then or
-/// of now, is not known: a clock that is a share of a period off is no physics.
-void PendulumModel::add_timing(Run& run) {
-  const auto& t = run.recording->time_s;
-  const double sample_s = (t.back() - t.front()) / static_cast<double>(t.size() - 1);
-  const bool torque = run.settings.law == PendulumLaw::kTorque;
-  const std::string name = torque ? "torque_timing" : "goal_timing";
-  const double sigma = kPeriodShare * run.settings.control_period_s + kSampleShare * sample_s;
-  int index = 0;
-  while (index < static_cast<int>(doubtful_.size()) && doubtful_[index].name != name) ++index;
-  if (index == static_cast<int>(doubtful_.size())) {
-    doubtful_.push_back({name, 0, sigma, -kMostTiming * sigma, kMostTiming * sigma});
-  }
-  run.timing = index;
-  add_switch_timing(run, sample_s);
-}
-
-/// A drive turns off somewhere between two samples; a swing that begins there remembers when.
-void PendulumModel::add_switch_timing(Run& run, double sample_s) {
-  const auto enable = run.recording->values("enable");
-  const auto turns = [](double a, double b) { return (a > 0.5) != (b > 0.5); };
-  const bool switched = std::adjacent_find(enable.begin(), enable.end(), turns) != enable.end();
-  if (!switched || run.recording->holdout) return;
-  const double sigma = kSwitchShare * sample_s;
-  run.switch_timing = static_cast<int>(doubtful_.size());
-  doubtful_.push_back({"switch_timing@" + run.recording->name, 0, sigma, -kMostTiming * sigma,
-                       kMostTiming * sigma});
 }
 
 PendulumSettings PendulumModel::settings(const Run& run, std::span<const double> setup) const {
@@ -455,6 +425,8 @@ void PendulumModel::simulate(const Run& run, std::span<const double> setup,
   std::vector<std::unique_ptr<JointEffect>> owned;
   std::vector<JointEffect*> effects;
   sim::PendulumInputs inputs = run.inputs;
+  inputs.position_goal_slope_rad_s = run.goal_slopes.position;
+  inputs.velocity_goal_slope_rad_s2 = run.goal_slopes.velocity;
   for (const ActiveEffect& effect : active) {
     if (effect.info->name == "frame_loss" && !run.losses.lost.empty()) {
       // Which goals were lost stands in the recording; drawing them anew would tell nothing.
@@ -464,8 +436,15 @@ void PendulumModel::simulate(const Run& run, std::span<const double> setup,
     owned.push_back(effect.info->make_joint(effect.values));
     effects.push_back(owned.back().get());
   }
+  std::vector<double> torque_Nm;
+  if (run.smoothing >= 0) {
+    torque_Nm = smoothed_torque_Nm(run, setup[run.smoothing]);
+    inputs.torque_Nm = torque_Nm;
+  }
   const bool fitted = rollout == Rollout::kCorrected;
-  simulate_pendulum(settings(run, setup), inputs, effects, fitted ? run.fitted_start : run.start,
+  sim::PendulumStart start = fitted ? run.fitted_start : run.start;
+  if (fitted && run.start_speed >= 0) start.velocity_rad_s = setup[run.start_speed];
+  simulate_pendulum(settings(run, setup), inputs, effects, start,
                     fitted ? run.correction : sim::PendulumCorrection{}, run.longest_step_s, trace);
 }
 

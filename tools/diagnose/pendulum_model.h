@@ -2,15 +2,21 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "sim/rigs/servo_pendulum.h"
 #include "tools/diagnose/goal_losses.h"
+#include "tools/diagnose/goal_slopes.h"
 #include "tools/diagnose/rig_model.h"
 
 namespace hoof::tools {
+
+/// Samples over which a torque that is an input is smoothed, from not at all.
+inline constexpr std::array<std::size_t, 5> kSmoothingSpans = {1, 5, 9, 17, 33};
+inline constexpr std::size_t kUsualSmoothing = 2;  // of them
 
 class PendulumModel final : public RigModel {
  public:
@@ -47,8 +53,12 @@ class PendulumModel final : public RigModel {
     double wander_rad = 0, wander_rad_s = 0;  // 1-sigma of the corrected state before a sample
     std::vector<std::string> channels;
     double longest_step_s = 0;
-    int timing = -1;         // in doubtful_
-    int switch_timing = -1;  // the same; where the drive is turned off or on
+    int timing = -1;                     // in doubtful_
+    int switch_timing = -1;              // the same; where the drive is turned off or on
+    int start_speed = -1;                // the same; where it begins in motion
+    int smoothing = -1;                  // the same; of a torque that is an input
+    double start_speed_doubt_rad_s = 0;  // 1 sigma; 0: it begins at rest, or nothing tells
+    GoalSlopes goal_slopes;
     GoalLosses losses;
     std::map<std::string, int> doubts;  // key of the setup to index in doubtful_
 
@@ -62,6 +72,9 @@ class PendulumModel final : public RigModel {
   void add_doubts(Run& run);
   void add_timing(Run& run);
   void add_switch_timing(Run& run, double sample_s);
+  void add_start_speed(Run& run);
+  void add_smoothing(Run& run);
+  std::vector<double> smoothed_torque_Nm(const Run& run, double smoothing) const;
   void choose_effects();
   sim::PendulumSettings settings(const Run& run, std::span<const double> setup) const;
   void estimate_start(Run& run) const;
@@ -75,6 +88,8 @@ class PendulumModel final : public RigModel {
 
   std::vector<DataSet> data_sets_;
   std::map<const Recording*, double> input_noise_Nm_;  // of torques that are inputs, as recorded
+  /// The same torques, smoothed over kSmoothingSpans.
+  std::map<const Recording*, std::vector<std::vector<double>>> smoothed_Nm_;
   std::vector<Run> runs_;
   std::vector<DoubtfulValue> doubtful_;
   std::vector<const sim::EffectInfo*> effects_;

@@ -150,6 +150,7 @@ void PendulumModel::start_in_motion(Run& run) const {
   run.fitted_start.velocity_rad_s = measured && std::isfinite(velocity.front()) && b > 0
                                         ? (b * path.speed + a * velocity.front()) / (a + b)
                                         : path.speed;
+  run.start_speed_doubt_rad_s = measured && b > 0 ? std::sqrt(a * b / (a + b)) : path.speed_doubt;
 }
 
 /// A joint that sticks keeps the angle it begins at: an error of one sample's noise there is an
@@ -168,6 +169,7 @@ void PendulumModel::start_at_rest(Run& run) const {
   }
   if (angle.count < kFewest) return;
   run.fitted_start.velocity_rad_s = 0;
+  run.start_speed_doubt_rad_s = 0;
   run.fitted_start.position_rad = angle.value();
   const auto torque = recording.values("torque");
   const auto goal = recording.values("position_goal");

@@ -10,9 +10,11 @@ namespace hoof::tools {
 namespace {
 
 constexpr std::size_t kSideSamples = 3;
-constexpr double kMostSide_s = 0.1;   // of the line that tells the speed
-constexpr double kSpeedDoubt = 0.02;  // of the largest speed: what that line should not exceed
+constexpr double kMostSide_s = 0.1;     // of the line that tells the speed
+constexpr double kSpeedDoubt = 0.02;    // of the largest speed: what that line should not exceed
+constexpr double kSteadyDoubt = 0.005;  // the same where the speed is steady
 constexpr double kNoises = 3;
+constexpr double kStraight = 1;  // deviations of what a line through noise leaves
 
 /// Missing values on the straight line between their neighbours; beyond the ends as the ends.
 std::vector<double> bridged(std::span<const double> time_s, std::span<const double> values) {
@@ -61,19 +63,23 @@ Fitted fit_polynomial(std::span<const double> time_s, std::span<const double> va
   return {values[at] + fit(0), fit(1) / scale_s};
 }
 
-/// Fewest samples on each side that tell the speed well enough: h samples of noise sigma, dt apart,
-/// leave a slope's deviation of sigma / (dt sqrt(h (h + 1) (2 h + 1) / 3)).
-std::size_t side_of_speed(std::span<const double> time_s, std::span<const double> height_m,
-                          double noise_m) {
-  const std::size_t count = time_s.size();
-  if (count < 3) return 1;
-  const double dt_s = (time_s[count - 1] - time_s[0]) / static_cast<double>(count - 1);
+/// Largest speed over a few samples.
+double fastest(std::span<const double> time_s, std::span<const double> height_m) {
   double fastest_m_s = 0;
-  for (std::size_t i = 2 * kSideSamples; i < count; ++i) {
+  for (std::size_t i = 2 * kSideSamples; i < height_m.size(); ++i) {
     const std::size_t before = i - 2 * kSideSamples;
     fastest_m_s = std::max(fastest_m_s,
                            std::abs(height_m[i] - height_m[before]) / (time_s[i] - time_s[before]));
   }
+  return fastest_m_s;
+}
+
+/// Fewest samples on each side that tell the speed well enough: h samples of noise sigma, dt apart,
+/// leave a slope's deviation of sigma / (dt sqrt(h (h + 1) (2 h + 1) / 3)).
+std::size_t side_of_speed(std::span<const double> time_s, double fastest_m_s, double noise_m) {
+  const std::size_t count = time_s.size();
+  if (count < 3) return 1;
+  const double dt_s = (time_s[count - 1] - time_s[0]) / static_cast<double>(count - 1);
   std::size_t side = 1;
   for (; static_cast<double>(side) * dt_s < kMostSide_s; ++side) {
     const auto h = static_cast<double>(side);
@@ -83,6 +89,52 @@ std::size_t side_of_speed(std::span<const double> time_s, std::span<const double
   return side;
 }
 
+/// A straight line through samples [first, last].
+struct Line {
+  double slope = 0;
+  double spread_s2 = 0;  // of the times: a slope's variance is that of the noise over this
+  double squares = 0;    // that it leaves
+};
+
+Line fit_line(std::span<const double> time_s, std::span<const double> values, std::size_t first,
+              std::size_t last) {
+  const auto count = static_cast<double>(last - first + 1);
+  double mean_s = 0, mean = 0;
+  for (std::size_t i = first; i <= last; ++i)
+    mean_s += time_s[i] / count, mean += values[i] / count;
+  double across = 0;
+  Line line;
+  for (std::size_t i = first; i <= last; ++i) {
+    line.spread_s2 += (time_s[i] - mean_s) * (time_s[i] - mean_s);
+    across += (time_s[i] - mean_s) * (values[i] - mean);
+  }
+  if (line.spread_s2 > 0) line.slope = across / line.spread_s2;
+  for (std::size_t i = first; i <= last; ++i) {
+    line.squares += std::pow(values[i] - mean - line.slope * (time_s[i] - mean_s), 2);
+  }
+  return line;
+}
+
+/// Slope at a sample, of the shortest line about it that tells it well and leaves no more than the
+/// noise: a steady speed does not tremble, and what is not steady is not cut.
+/// @param side samples on each side where no line does  @param enough_s2 spread of the times that
+///        tells it well
+double steady_slope(std::span<const double> time_s, std::span<const double> values, std::size_t at,
+                    std::size_t side, double noise, double enough_s2) {
+  const std::size_t count = values.size();
+  Line best = fit_line(time_s, values, at - std::min(at, side), std::min(at + side, count - 1));
+  const double sample_s =
+      (time_s[count - 1] - time_s[0]) / static_cast<double>(std::max<std::size_t>(count - 1, 1));
+  for (std::size_t h = 1; static_cast<double>(h) * sample_s < kMostSide_s; ++h) {
+    if (best.spread_s2 >= enough_s2 || h > at || at + h >= count) break;
+    const Line line = fit_line(time_s, values, at - h, at + h);
+    const double freedom = 2 * static_cast<double>(h) - 1;
+    const double straight = noise * noise * (freedom + kStraight * std::sqrt(2 * freedom));
+    if (line.squares < straight && line.spread_s2 > best.spread_s2) best = line;
+  }
+  return best.slope;
+}
+
 }  // namespace
 
 sim::PressPath press_path(std::span<const double> time_s, std::span<const double> height_m) {
@@ -90,7 +142,9 @@ sim::PressPath press_path(std::span<const double> time_s, std::span<const double
   const std::vector<double> heights = bridged(time_s, height_m);
   const std::size_t count = heights.size();
   const double noise_m = estimate_noise(time_s, height_m);
-  const std::size_t side = side_of_speed(time_s, heights, noise_m);
+  const double fastest_m_s = fastest(time_s, heights);
+  const std::size_t side = side_of_speed(time_s, fastest_m_s, noise_m);
+  const double enough_s2 = std::pow(noise_m / std::max(kSteadyDoubt * fastest_m_s, 1e-12), 2);
   const auto first = [](std::size_t i, std::size_t samples) { return i - std::min(i, samples); };
   const auto last = [&](std::size_t i, std::size_t samples) {
     return std::min(i + samples, count - 1);
@@ -102,8 +156,7 @@ sim::PressPath press_path(std::span<const double> time_s, std::span<const double
     const bool within = std::abs(smooth_m - heights[i]) <= kNoises * noise_m;
     path.time_s.push_back(time_s[i] - time_s[0]);
     path.height_m.push_back(within ? smooth_m : heights[i]);
-    path.speed_m_s.push_back(
-        -fit_polynomial(time_s, heights, i, first(i, side), last(i, side), 1).slope);
+    path.speed_m_s.push_back(-steady_slope(time_s, heights, i, side, noise_m, enough_s2));
   }
   path.press.assign(count, 0);
   return path;

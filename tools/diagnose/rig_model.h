@@ -20,6 +20,7 @@ struct DoubtfulValue {
   double sigma = 0;
   double low = 0;  // -infinity where it may be negative
   double high = std::numeric_limits<double>::infinity();
+  int recording = -1;  // the only one whose prediction it changes; -1: any
 };
 
 struct ActiveEffect {

@@ -7,6 +7,7 @@
 
 #include "tools/diagnose/fitter.h"
 #include "tools/diagnose/pendulum_model.h"
+#include "tools/diagnose/search_start.h"
 
 using namespace hoof;
 using namespace hoof::tools;
@@ -121,6 +122,96 @@ TEST_CASE("pendulum: when a drive is turned off between two samples is fitted") 
   }
 }
 
+TEST_CASE("pendulum: while a drive turns off it is on, then off, and never half on") {
+  // Lifted and held by more than friction: half a torque would hold it, none lets it fall. The
+  // later it is turned off, the later it falls, by just that.
+  DataSet set = blank(6);
+  auto& channels = set.recordings[0].channels;
+  for (int i = 0; i < kSamples; ++i) {
+    channels["position_goal"][i] = 0.3;
+    channels["enable"].push_back(i < 330 ? 1 : 0);
+  }
+  const PendulumModel plant({set});
+  std::vector<double> setup = stated(plant);
+  setup[doubt(plant, "viscous")] = 0;  // what is left is a fall that begins
+  const int timing = doubt(plant, "switch_timing@run.csv");
+  std::vector<double> angles;
+  for (const double late_ms : {-1.2, -0.9, -0.6, -0.3, 0.0, 0.3, 0.6, 0.9, 1.2}) {
+    setup[timing] = late_ms * 1e-3;
+    angles.push_back(plant.predict(0, setup, {}, Rollout::kFree)[0][350]);
+  }
+  REQUIRE(angles.front() < 0.25);
+  const double each = (angles.back() - angles.front()) / 8;
+  CHECK(each > 1e-4);
+  for (std::size_t i = 1; i < angles.size(); ++i) {
+    // A fall that speeds up by a fiftieth from one to the next; a step that is cut has its own
+    // error.
+    CHECK(angles[i] - angles[i - 1] == Approx(each).epsilon(0.1));
+  }
+}
+
+TEST_CASE("pendulum: the speed of a recording that begins in motion is fitted") {
+  // A soft drive: what it begins with is forgotten in a second or so.
+  for (const double speed : {1.5, -2.5}) {
+    CAPTURE(speed);
+    DataSet set = blank(0.8);
+    auto& recording = set.recordings[0];
+    for (int i = 0; i < kSamples; ++i) {
+      recording.channels["position_goal"][i] = 0.4 * std::sin(5 * kSample_s * i);
+      // What the estimate sees first is the motion itself.
+      recording.channels["position"][i] = speed * kSample_s * i;
+    }
+    const PendulumModel plant({set});
+    std::vector<double> setup = stated(plant);
+    const int start = doubt(plant, "start_speed@run.csv");
+    setup[start] = speed;
+    std::mt19937_64 random(41);
+    std::normal_distribution<double> normal;
+    const Prediction p = plant.predict(0, setup, {}, Rollout::kCorrected);
+    for (int i = 0; i < kSamples; ++i) {
+      recording.channels["position"][i] = p[0][i] + kPositionNoise_rad * normal(random);
+      recording.channels["torque"][i] = p[1][i] + kTorqueNoise_Nm * normal(random);
+    }
+    const PendulumModel model({set});
+    const Fitter fitter(model);
+    const Fit fit = fitted(fitter);
+    // Noise over the slope of the swing that follows leaves a few thousandths.
+    const int fitted_start = doubt(model, "start_speed@run.csv");
+    CHECK(Layout(model, {}).setup_value(fitted_start, fit.x[fitted_start]) ==
+          Approx(speed).margin(0.02));
+    CHECK(rms_of(fitter, fit, "position") < 1.1 * kPositionNoise_rad);
+    CHECK(model.doubtful()[fitted_start].recording == 0);
+  }
+}
+
+TEST_CASE("pendulum: a column of one recording's own number is as if all were predicted anew") {
+  DataSet set = blank(6);
+  auto& enable = set.recordings[0].channels["enable"];
+  for (int i = 0; i < kSamples; ++i) enable.push_back(i < 330 ? 1 : 0);
+  const PendulumModel plant({set});
+  record(set, plant, stated(plant), 51);
+  Recording other = set.recordings[0];
+  other.name = "other.csv";
+  set.recordings.push_back(other);
+  const PendulumModel model({set});
+  const Fitter fitter(model);
+  const Layout layout(model, {});
+  const Fitter::Weights weights = fitter.weights();
+  const Eigen::VectorXd x = layout.stated();
+  const Eigen::VectorXd r = fitter.residuals(layout, x, weights);
+  const Eigen::MatrixXd J = fitter.jacobian(layout, x, r, weights);
+  for (int i = 0; i < layout.size(); ++i) {
+    CAPTURE(model.doubtful()[i].name);
+    Eigen::VectorXd shifted = x;
+    shifted[i] += layout.step(i);
+    const Eigen::VectorXd whole = (fitter.residuals(layout, shifted, weights) - r) / layout.step(i);
+    CHECK((whole - J.col(i)).lpNorm<Eigen::Infinity>() == 0);
+    if (i == doubt(model, "coulomb") || i == doubt(model, "switch_timing@other.csv")) {
+      CHECK(J.col(i).squaredNorm() > 2);  // the prior alone makes one
+    }
+  }
+}
+
 TEST_CASE("pendulum: a torque constant that is off makes a current, and no misfit") {
   for (const double wrong : {0.75, 1.3}) {
     CAPTURE(wrong);
@@ -166,5 +257,95 @@ TEST_CASE("pendulum: a joint that begins at rest begins where all its first samp
     }
     // 200 torques and angles tell it to 0.01 Nm / sqrt(200); five of those.
     CHECK(std::abs(offset) < 5 * kTorqueNoise_Nm / std::sqrt(200.0));
+  }
+}
+
+TEST_CASE("pendulum: noise of a recorded torque is smoothed as the recording asks, not by a lag") {
+  // A third of the torque is the recorder's noise, at every sample; the motor never had it.
+  for (const std::uint64_t seed : {61, 62}) {
+    CAPTURE(seed);
+    DataSet set = blank(6);
+    set.setup.law = set.recordings[0].setup.law = DriveLaw::kTorque;
+    auto& channels = set.recordings[0].channels;
+    channels.erase("position_goal");
+    for (int i = 0; i < kSamples; ++i) {
+      const double t = kSample_s * i;
+      channels["torque"][i] = 0.5 * std::sin(2.2 * t) + 0.25 * std::sin(7 * t + 1);
+    }
+    const PendulumModel plant({set});
+    std::vector<double> setup = stated(plant);
+    setup[doubt(plant, "torque_smoothing")] = 0;  // as it was
+    channels["position"] = plant.predict(0, setup, {}, Rollout::kFree)[0];
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> normal;
+    for (int i = 0; i < kSamples; ++i) {
+      channels["position"][i] += kPositionNoise_rad * normal(random);
+      channels["torque"][i] += 0.15 * normal(random);
+    }
+    const PendulumModel model({set});
+    const Fitter fitter(model);
+    const Fit fit = fitted(fitter);
+    const int smoothing = doubt(model, "torque_smoothing");
+    CHECK(Layout(model, {}).setup_value(smoothing, fit.x[smoothing]) > 1);
+    // What a lag gains beside it, in log likelihood, by smoothing what is left.
+    const auto lags = [&model](const std::string& name) {
+      for (const sim::EffectInfo* e : model.effects()) {
+        if (e->name == name) return e;
+      }
+      throw std::runtime_error("no " + name);
+    };
+    const Effects lag = {lags("actuator_lag")};
+    const auto gain = [&](double at) {
+      const auto weights = fitter.weights();
+      Eigen::VectorXd x = Layout(model, lag).stated();
+      x.head(fit.x.size()) = fit.x;
+      const auto objective = [&](double time_constant_s) {
+        x[smoothing] = at;
+        x[x.size() - 1] = std::log(time_constant_s);
+        return fitter.objective(lag, x, weights);
+      };
+      return objective(1e-5) - std::min({objective(0.003), objective(0.006), objective(0.012)});
+    };
+    // Smoothed over nine samples, as it was once for all recordings, a lag would be found.
+    const double usual = gain(0), fitted_gain = gain(fit.x[smoothing]);
+    CHECK(usual > 50);
+    CHECK(fitted_gain < 0.2 * usual);
+  }
+}
+
+TEST_CASE("search: both phases of cogging are one linear step") {
+  for (const double phase : {0.7, -2.4}) {
+    CAPTURE(phase);
+    DataSet set = blank(6);
+    const PendulumModel plant({set});
+    const sim::EffectInfo* cogging = nullptr;
+    for (const sim::EffectInfo* e : plant.effects()) {
+      if (e->name == "cogging_torque") cogging = e;
+    }
+    REQUIRE(cogging);
+    constexpr double kAmplitude_Nm = 0.01;
+    const ActiveEffect hidden{cogging, {kAmplitude_Nm, 9, phase}};
+    const Prediction p = plant.predict(0, stated(plant), {&hidden, 1}, Rollout::kFree);
+    std::mt19937_64 random(71);
+    std::normal_distribution<double> normal;
+    for (int i = 0; i < kSamples; ++i) {
+      set.recordings[0].channels["position"][i] = p[0][i] + kPositionNoise_rad * normal(random);
+      set.recordings[0].channels["torque"][i] = p[1][i] + kTorqueNoise_Nm * normal(random);
+    }
+    const PendulumModel model({set});
+    const Fitter fitter(model);
+    Fit base;
+    base.x = Layout(model, {}).stated();
+    base.squares = fitter.squares(base);
+    const auto weights = fitter.roomy_weights(base.squares, 0.3);
+    const auto starts =
+        starts_beside(fitter, base, tangent(fitter, base, weights), cogging, weights);
+    REQUIRE(!starts.empty());
+    const Layout layout(model, {cogging});
+    const int at = layout.setup_count();
+    CHECK(layout.effect_value(1, starts[0].x[at + 1]) == 9);
+    // Linear: a torque so small moves the joint in proportion but where it sticks.
+    CHECK(layout.effect_value(0, starts[0].x[at]) == Approx(kAmplitude_Nm).epsilon(0.25));
+    CHECK(std::abs(std::remainder(starts[0].x[at + 2] - phase, 2 * M_PI)) < 0.25);
   }
 }

@@ -189,6 +189,35 @@ TEST_CASE("height and speed: parabolas exactly, uneven times, missing samples br
   CHECK(dead.height_m[100] == 0);
 }
 
+TEST_CASE("a steady speed does not tremble, and a ramp of it is not cut") {
+  // Rest, half a second of speeding up, four seconds at 8 mm/s. A neighbour on each side alone
+  // would leave 4 um / (20 ms sqrt 2), 0.14 mm/s.
+  for (const std::uint64_t seed : {5, 6, 7}) {
+    CAPTURE(seed);
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> normal;
+    constexpr double kNoise_m = 4e-6, kSteady_m_s = 0.008;
+    std::vector<double> time_s, height_m, speed_m_s;
+    double depth_m = 0;
+    for (int i = 0; i < 300; ++i) {
+      const double t = 0.02 * i;
+      time_s.push_back(t);
+      speed_m_s.push_back(kSteady_m_s * std::clamp((t - 1) / 0.5, 0.0, 1.0));
+      if (i > 0) depth_m += 0.01 * (speed_m_s[speed_m_s.size() - 2] + speed_m_s.back());
+      height_m.push_back(-depth_m + kNoise_m * normal(random));
+    }
+    const auto path = tools::press_path(time_s, height_m);
+    double steady = 0, ramp = 0;
+    for (std::size_t i = 90; i < 290; ++i) {
+      steady += std::pow(path.speed_m_s[i] - speed_m_s[i], 2) / 200;
+    }
+    for (std::size_t i = 48; i < 78; ++i) ramp += (path.speed_m_s[i] - speed_m_s[i]) / 30;
+    // Seven neighbours leave 0.5 % of the speed, three 1.8 %; most samples are to have the seven.
+    CHECK(std::sqrt(steady) < 0.01 * kSteady_m_s);
+    CHECK(std::abs(ramp) < 0.01 * kSteady_m_s);
+  }
+}
+
 TEST_CASE("a noisy height is smoothed along the path and not across its corner") {
   std::mt19937_64 random(3);  // noise seed
   std::normal_distribution<double> normal;
