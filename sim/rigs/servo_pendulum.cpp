@@ -109,7 +109,7 @@ class Pendulum {
         out_(out),
         goal_(in.time_s, in.position_goal_rad, in.position_goal_slope_rad_s),
         velocity_goal_(in.time_s, in.velocity_goal_rad_s, in.velocity_goal_slope_rad_s2),
-        feed_forward_(in.time_s, in.torque_ff_Nm),
+        feed_forward_(in.time_s, in.torque_ff_Nm, in.torque_ff_slope_Nm_s),
         enable_(in.time_s, in.enable),
         supply_(in.time_s, in.supply_V),
         torque_(in.time_s, in.torque_Nm) {

@@ -61,6 +61,7 @@ struct PendulumInputs {
   /// Of goals between their samples: a cubic by these at the samples; empty: linear.
   std::span<const double> position_goal_slope_rad_s;
   std::span<const double> velocity_goal_slope_rad_s2;
+  std::span<const double> torque_ff_slope_Nm_s;
 
   /// Where known: at which samples the drive went without a new goal; null: all arrived.
   const std::vector<bool>* lost = nullptr;

@@ -22,7 +22,7 @@ constexpr int kRivals = 6;
 /// chi-square of one number tells at 99 %.
 constexpr double kAlike = 3.5;
 /// And no less probable than this share of the best, all told.
-constexpr double kLeastInSet = 0.01;
+constexpr double kLeastInSet = 1e-4;
 /// Of a pair's probability, the share of the member that matters more.
 constexpr double kLeader = 0.85;
 
@@ -64,7 +64,8 @@ class Diagnosis {
   const sim::EffectInfo* leader(const Fit& fit) const;
   /// A rival that leaves hardly more than the best and is not the best with something added.
   bool alike(const Standing& rival, const Standing& best) const;
-  static bool hardly_worse(const Standing& rival, const Standing& best);
+  double said_against(const Fit& fit) const;
+  bool hardly_worse(const Standing& rival, const Standing& best) const;
   void name_effects();
   void say_where();
   void measure();
@@ -182,8 +183,19 @@ const sim::EffectInfo* Diagnosis::leader(const Fit& fit) const {
   return first;
 }
 
-bool Diagnosis::hardly_worse(const Standing& rival, const Standing& best) {
-  const double worse = rival.fit->objective - best.fit->objective;
+/// What the recordings, and what is known of the setup, say against a fit: its objective less what
+/// is thought of the effects' own numbers beforehand.
+double Diagnosis::said_against(const Fit& fit) const {
+  const Layout layout(model_, fit.effects);
+  double sum = fit.objective;
+  for (int i = layout.setup_count(); i < layout.size(); ++i) {
+    sum -= 0.5 * std::pow((fit.x[i] - layout.prior_mean(i)) / layout.prior_sigma(i), 2);
+  }
+  return sum;
+}
+
+bool Diagnosis::hardly_worse(const Standing& rival, const Standing& best) const {
+  const double worse = said_against(*rival.fit) - said_against(*best.fit);
   return worse + std::max(best.holdout_gain - rival.holdout_gain, 0.0) < kAlike;
 }
 

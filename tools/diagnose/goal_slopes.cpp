@@ -44,6 +44,8 @@ GoalSlopes goal_slopes(const Recording& recording) {
   const auto velocity = recording.values("velocity_goal");
   if (!goal.empty()) slopes.position = limited_slopes(t, goal);
   if (!velocity.empty()) slopes.velocity = limited_slopes(t, velocity);
+  const auto torque = recording.values("torque_ff");
+  if (!torque.empty()) slopes.torque = limited_slopes(t, torque);
   const auto fits = [](double v, double s) {
     return v * s > 0 && std::abs(v) <= kMonotone * std::abs(s);
   };

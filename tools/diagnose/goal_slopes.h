@@ -12,6 +12,7 @@ namespace hoof::tools {
 struct GoalSlopes {
   std::vector<double> position;  // rad/s, of position_goal
   std::vector<double> velocity;  // rad/s^2, of velocity_goal
+  std::vector<double> torque;    // Nm/s, of torque_ff
 };
 
 /// Of the parabola through three samples, no steeper than three times the flatter side: a path that

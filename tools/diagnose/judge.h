@@ -14,7 +14,7 @@ namespace hoof::tools {
 /// a fitted integrator is not the plant. From the calibration on concealed plants (README).
 inline constexpr double kTemperature = 3.0;
 /// No model is the plant: this much log likelihood per independent sample proves nothing.
-inline constexpr double kTolerated = 0.006;
+inline constexpr double kTolerated = 0.0025;
 
 /// What a hypothesis achieved, relative to the nominal model.
 struct Standing {

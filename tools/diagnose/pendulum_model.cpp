@@ -427,6 +427,7 @@ void PendulumModel::simulate(const Run& run, std::span<const double> setup,
   sim::PendulumInputs inputs = run.inputs;
   inputs.position_goal_slope_rad_s = run.goal_slopes.position;
   inputs.velocity_goal_slope_rad_s2 = run.goal_slopes.velocity;
+  inputs.torque_ff_slope_Nm_s = run.goal_slopes.torque;
   for (const ActiveEffect& effect : active) {
     if (effect.info->name == "frame_loss" && !run.losses.lost.empty()) {
       // Which goals were lost stands in the recording; drawing them anew would tell nothing.

@@ -1,6 +1,7 @@
 // The whole way from recordings to a verdict, on plants whose truth is known because the model made
 // them. Plants of another maker are tools/conceal's; these hold that the search finds what the
 // model can say, that noise alone is no finding, and that threads change no byte.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
@@ -114,6 +115,53 @@ TEST_CASE("diagnose: one effect is named, with its parameters, and held-out data
   CHECK(found.high95 > found.value);
   CHECK(verdict.after.holdout.at("torque_rmse") < verdict.before.holdout.at("torque_rmse"));
   CHECK(verdict.after.holdout.at("torque_rmse") == Approx(kTorqueNoise_Nm).epsilon(0.1));
+}
+
+TEST_CASE(
+    "diagnose: about one angle a spring and cogging cannot be told apart, and both are said") {
+  // Three degrees about half a radian: of any torque that depends on the angle its value and slope
+  // are all that is felt.
+  DataSet truth = blank(1), set = blank(1);
+  for (DataSet* s : {&truth, &set}) {
+    for (Recording& r : s->recordings) {
+      for (double& goal : r.channels["position_goal"]) goal = 0.5 + 0.06 * goal;
+      r.channels["position"].assign(1000, r.channels["position_goal"][0]);
+    }
+  }
+  const PendulumModel plant({truth});
+  std::mt19937_64 random(15);
+  std::normal_distribution<double> normal;
+  std::vector<double> setup;
+  for (const DoubtfulValue& d : plant.doubtful()) setup.push_back(d.value);
+  const std::vector<ActiveEffect> spring = {effect("parasitic_spring", {0.2, -0.4})};
+  for (int k = 0; k < plant.recordings(); ++k) {
+    const Prediction p = plant.predict(k, setup, spring, Rollout::kFree);
+    auto& channels = set.recordings[static_cast<std::size_t>(k)].channels;
+    for (std::size_t i = 0; i < 1000; ++i) {
+      channels["position"][i] = p[0][i] + kPositionNoise_rad * normal(random);
+      channels["torque"][i] = p[1][i] + kTorqueNoise_Nm * normal(random);
+    }
+  }
+  const Verdict verdict = diagnose({set}, {});
+  CHECK(verdict.verdict == "not_separable");
+  REQUIRE_FALSE(verdict.not_separable.empty());
+  const auto& both = verdict.not_separable.front();
+  CHECK(std::count(both.begin(), both.end(), "parasitic_spring") == 1);
+  CHECK(std::count(both.begin(), both.end(), "cogging_torque") == 1);
+}
+
+TEST_CASE("diagnose: what held-out recordings speak against is not named") {
+  // Something was so in three recordings, and the other way round in the one that is held out.
+  DataSet set = made({effect("directional_friction", {0.4})}, 1, 16);
+  const DataSet against = made({effect("directional_friction", {-0.4})}, 1, 17);
+  set.recordings[3] = against.recordings[3];
+  const Verdict verdict = diagnose({set}, {});
+  CHECK(verdict.verdict != "missing_physics");
+  CHECK(verdict.verdict != "not_separable");
+  CHECK(verdict.probabilities.at("directional_friction") < 0.05);
+  // With the same in all of them it is.
+  CHECK(diagnose({made({effect("directional_friction", {0.4})}, 1, 16)}, {}).verdict ==
+        "missing_physics");
 }
 
 TEST_CASE("diagnose: friction that nobody stated is found, and is no missing physics") {
