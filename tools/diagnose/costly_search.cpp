@@ -6,9 +6,11 @@
 #include <cmath>
 #include <thread>
 
+#include "tools/diagnose/damped_fit.h"
 #include "tools/diagnose/linear_look.h"
 #include "tools/diagnose/noise_left.h"
 #include "tools/diagnose/search_start.h"
+#include "tools/diagnose/threshold_scan.h"
 
 namespace hoof::tools {
 namespace {
@@ -29,39 +31,6 @@ constexpr int kRoughIterations = 5, kCloserIterations = 5, kLastIterations = 5;
 /// next the squares are ragged, not a bowl. A quarter of a slope's step.
 constexpr double kLeastSigma = 0.005;
 
-/// Levenberg and Marquardt's least squares, damped from the first step on: an undamped one that
-/// goes too far in the valley of soil against effect costs as many rollouts as the way there.
-Fit damped_fit(const Fitter& fitter, Fit fit, int iterations, const Fitter::Weights& weights) {
-  constexpr double kFirstDamping = 0.03, kMore = 8, kLess = 0.2, kEnough = 1e-3;
-  constexpr int kTries = 5;
-  const Layout layout(fitter.model(), fit.effects);
-  Eigen::VectorXd r = fitter.residuals(layout, fit.x, weights);
-  fit.objective = 0.5 * r.squaredNorm();
-  double damping = kFirstDamping;
-  for (int i = 0; i < iterations && layout.size() > 0; ++i) {
-    const Eigen::MatrixXd J = fitter.jacobian(layout, fit.x, r, weights);
-    const Eigen::MatrixXd H = J.transpose() * J;
-    const Eigen::VectorXd slope = J.transpose() * r;
-    double gained = 0;
-    for (int k = 0; k < kTries && gained <= 0; ++k) {
-      Eigen::MatrixXd A = H;
-      A.diagonal() += damping * H.diagonal().cwiseMax(1e-12);
-      const Eigen::VectorXd x = fit.x - A.ldlt().solve(slope);
-      const Eigen::VectorXd there = fitter.residuals(layout, x, weights);
-      const double objective = 0.5 * there.squaredNorm();
-      if (objective < fit.objective) {
-        gained = fit.objective - objective;
-        fit.x = x, r = there, fit.objective = objective;
-        damping *= kLess;
-      } else {
-        damping *= kMore;
-      }
-    }
-    if (gained <= kEnough * fit.objective) break;
-  }
-  return fit;
-}
-
 class CostlySearch {
  public:
   CostlySearch(Fitter& fitter, const CostlyOptions& options) : fitter_(fitter), options_(options) {}
@@ -72,7 +41,8 @@ class CostlySearch {
     looked_ = look();
     const LinearBase base(fitter_, Fit(result_.fits[0]), look_weights_);
     fit_roughly(base, promising(options_.rough), 0.2, 0.45, "one effect");
-    follow(best(1, options_.followed), 0.45, 0.7, "one effect");
+    follow(best(1, options_.followed), 0.45, 0.6, "one effect");
+    if (!explained(ranked().front())) scan_thresholds(base);
     if (!explained(ranked().front())) fit_pairs();
     take_noise_left(fitter_, ranked().front());
     judge_all();
@@ -235,6 +205,40 @@ class CostlySearch {
       fits[i].squares = fitter_.squares(fits[i]);
     });
     for (const Fit& fit : fits) *find_fit(fit.effects) = fit;
+  }
+
+  /// Once for each effect, not for each start: the scan has its own.
+  void scan_thresholds(const LinearBase& base) {
+    std::vector<LinearStart> scanned;
+    for (const LinearStart& start : looked_) {
+      const bool there =
+          std::any_of(scanned.begin(), scanned.end(),
+                      [&start](const LinearStart& s) { return s.effect == start.effect; });
+      const bool enough = static_cast<int>(scanned.size()) >= options_.scanned;
+      if (enough || there || threshold_of(fitter_.model(), start) < 0) continue;
+      scanned.push_back(start);
+    }
+    std::vector<Effects> moved;
+    double from = 0.6;
+    const double step = 0.06 / std::max(1.0, double(scanned.size()));
+    for (const LinearStart& start : scanned) {
+      const ScanTasks tasks = [&](std::size_t count, const std::function<void(std::size_t)>& task) {
+        for_all(count, from, from, "where an effect begins", task);
+      };
+      std::vector<Fit> fits = scan_threshold(fitter_, base, start, look_weights_, tasks);
+      from += step;
+      if (fits.empty()) continue;
+      Fit* known = find_fit(fits[0].effects);
+      if (known == nullptr) {
+        result_.fits.push_back(fits[0]);
+      } else if (fits[0].objective < fitter_.objective(known->effects, known->x, look_weights_)) {
+        *known = fits[0];
+      } else {
+        continue;
+      }
+      moved.push_back(fits[0].effects);
+    }
+    follow(moved, from, 0.7, "where an effect begins");
   }
 
   Fit* find_fit(const Effects& effects) {
