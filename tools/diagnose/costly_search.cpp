@@ -42,7 +42,7 @@ class CostlySearch {
     const LinearBase base(fitter_, Fit(result_.fits[0]), look_weights_);
     fit_roughly(base, promising(options_.rough), 0.2, 0.45, "one effect");
     follow(best(1, options_.followed), 0.45, 0.6, "one effect");
-    if (!explained(ranked().front())) scan_thresholds(base);
+    if (!explained(ranked().front())) scan_thresholds();
     if (!explained(ranked().front())) fit_pairs();
     take_noise_left(fitter_, ranked().front());
     judge_all();
@@ -69,12 +69,16 @@ class CostlySearch {
     say(0, "nominal model");
     Fit nominal;
     nominal.x = Layout(fitter_.model(), {}).stated();
+    wide_squares_ = fitter_.squares(nominal);
     for (const double share : {0.5, kRough}) {
       nominal = damped_fit(fitter_, nominal, kCloserIterations, room(nominal, share));
     }
     result_.fits = {settle(nominal)};
     fitter_.judge(result_.fits[0]);
     look_weights_ = fitter_.roomy_weights(nominal_squares(), kRough);
+    for (std::size_t g = 0; g < wide_squares_.size(); ++g) {
+      wide_squares_[g] = std::max(wide_squares_[g], nominal_squares()[g]);
+    }
   }
 
   const std::vector<double>& nominal_squares() const { return result_.fits[0].squares; }
@@ -207,8 +211,11 @@ class CostlySearch {
     for (const Fit& fit : fits) *find_fit(fit.effects) = fit;
   }
 
-  /// Once for each effect, not for each start: the scan has its own.
-  void scan_thresholds(const LinearBase& base) {
+  /// Once for each effect, not for each start: the scan has its own. Channels have the room that
+  /// the setup as stated asks for, where it is more than what the refitted one leaves: a channel
+  /// that the refit made small for the wrong reason, as soil stiffness does a foot's depth, else
+  /// walls off the way to the truth.
+  void scan_thresholds() {
     std::vector<LinearStart> scanned;
     for (const LinearStart& start : looked_) {
       const bool there =
@@ -218,27 +225,27 @@ class CostlySearch {
       if (enough || there || threshold_of(fitter_.model(), start) < 0) continue;
       scanned.push_back(start);
     }
-    std::vector<Effects> moved;
-    double from = 0.6;
-    const double step = 0.06 / std::max(1.0, double(scanned.size()));
-    for (const LinearStart& start : scanned) {
+    const auto weights = fitter_.roomy_weights(wide_squares_, kRough);
+    const LinearBase base(fitter_, Fit(result_.fits[0]), weights);
+    for (std::size_t i = 0; i < scanned.size(); ++i) {
+      const double from = 0.6 + 0.1 * double(i) / double(scanned.size());
       const ScanTasks tasks = [&](std::size_t count, const std::function<void(std::size_t)>& task) {
         for_all(count, from, from, "where an effect begins", task);
       };
-      std::vector<Fit> fits = scan_threshold(fitter_, base, start, look_weights_, tasks);
-      from += step;
-      if (fits.empty()) continue;
-      Fit* known = find_fit(fits[0].effects);
-      if (known == nullptr) {
-        result_.fits.push_back(fits[0]);
-      } else if (fits[0].objective < fitter_.objective(known->effects, known->x, look_weights_)) {
-        *known = fits[0];
-      } else {
-        continue;
-      }
-      moved.push_back(fits[0].effects);
+      const auto fits = scan_threshold(fitter_, base, scanned[i], weights, tasks);
+      if (!fits.empty()) take_scanned(fits[0]);
     }
-    follow(moved, from, 0.7, "where an effect begins");
+  }
+
+  void take_scanned(const Fit& scanned) {
+    Fit fit = polish(settle(scanned));
+    fit.squares = fitter_.squares(fit);
+    Fit* known = find_fit(fit.effects);
+    if (known == nullptr) {
+      result_.fits.push_back(std::move(fit));
+    } else if (first_rank(fitter_, fit) > first_rank(fitter_, *known)) {
+      *known = std::move(fit);
+    }
   }
 
   Fit* find_fit(const Effects& effects) {
@@ -325,6 +332,7 @@ class CostlySearch {
   SearchResult result_;
   std::vector<LinearStart> looked_;  // beside the nominal model, best first
   Fitter::Weights look_weights_;
+  std::vector<double> wide_squares_;  // of the nominal model, as stated or refitted: the larger
   std::thread::id caller_ = std::this_thread::get_id();
 };
 
