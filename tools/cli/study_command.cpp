@@ -69,11 +69,11 @@ CLI::App* add_study(CLI::App& parent, Invocation& invocation, const char* name, 
     list("--only", options->bodies, "Only these cases, e.g. worn-spines,wall-near", "NAME,...");
     command->footer(
         "A cause put into grains, against what fast soil makes of the effect that stands for it:\n"
-        "the same short press with and without. --full: the paper's grains, five beds. Finished\n"
-        "cases are kept: after Ctrl-C the same command goes on where it was.\n"
+        "the same short press with and without. --full: the paper's own grains. Finished cases\n"
+        "are kept: after Ctrl-C the same command goes on where it was.\n"
         "Examples:\n"
-        "  hoof study grains-check --threads 2         coarser grains, three beds, minutes\n"
-        "  hoof study grains-check --only worn-spines --beds 5\n"
+        "  hoof study grains-check --threads 2         grains of 1.5 times the paper's, minutes\n"
+        "  hoof study grains-check --only worn-spines --beds 10\n"
         "  hoof study grains-check --full --threads 2 --out runs/grains");
   }
   return command;
