@@ -22,7 +22,7 @@ namespace {
 constexpr double kDepths_m[] = {-2e-3, 5e-3, 8e-3, 13e-3};
 constexpr double kDeepest_m = 13e-3;
 constexpr double kFar_m = 0.24, kNear_m = 0.08;  // length of the box, across the strip
-constexpr double kDeep_m = 0.1, kFirm_m = 0.06;  // depth of the floor
+constexpr double kDeep_m = 0.1, kFirm_m = 0.04;  // depth of the floor
 constexpr double kLoss_m = 4e-3;                 // of the spines
 constexpr double kLayerRatio = 3;                // stiffness below a layer whose depth is fitted
 /// What is smaller on fast soil is none.
@@ -48,7 +48,7 @@ class GrainsCheck {
   explicit GrainsCheck(const StudyOptions& options)
       : bench_("grains-check", options),
         scales_(options.scales),
-        bed_count_(options.bed_count.value_or(5)) {
+        bed_count_(options.bed_count.value_or(options.full ? 5 : 3)) {
     if (scales_.empty()) scales_ = {options.full ? 1.0 : 1.5};
   }
 
