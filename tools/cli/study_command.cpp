@@ -5,6 +5,7 @@
 #include "tools/cli/fault_matrix.h"
 #include "tools/study/drop_law.h"
 #include "tools/study/foot_proof.h"
+#include "tools/study/grains_check.h"
 #include "tools/study/study.h"
 
 namespace hoof::tools {
@@ -51,7 +52,7 @@ CLI::App* add_study(CLI::App& parent, Invocation& invocation, const char* name, 
   const auto list = [&](const char* flag, auto& into, const char* text, const char* type) {
     return command->add_option(flag, into, text)->type_name(type)->delimiter(',');
   };
-  if (study != run_box_study) {
+  if (study != run_box_study && study != run_grains_check) {
     list("--lengths", options->lengths_mm, "Lengths of the box, mm", "MM,...")
         ->check(CLI::Range(20.0, 5000.0));
   }
@@ -63,6 +64,17 @@ CLI::App* add_study(CLI::App& parent, Invocation& invocation, const char* name, 
   if (study == run_box_study) {
     list("--bodies", options->bodies, "strip, foot", "NAME,...")
         ->check(CLI::IsMember({"strip", "foot"}));
+  }
+  if (study == run_grains_check) {
+    list("--only", options->bodies, "Only these cases, e.g. worn-spines,wall-near", "NAME,...");
+    command->footer(
+        "A cause put into grains, against what fast soil makes of the effect that stands for it:\n"
+        "the same short press with and without. --full: the paper's own grains. Finished cases\n"
+        "are kept: after Ctrl-C the same command goes on where it was.\n"
+        "Examples:\n"
+        "  hoof study grains-check --threads 2         grains of 1.5 times the paper's, minutes\n"
+        "  hoof study grains-check --only worn-spines --beds 10\n"
+        "  hoof study grains-check --full --threads 2 --out runs/grains");
   }
   return command;
 }
@@ -123,7 +135,8 @@ void add_study_command(CLI::App& app, Invocation& invocation) {
       "  hoof study time-step --scales 1\n"
       "  hoof study faults                           every fault in every mode, a minute\n"
       "  hoof study drop-law                         the paper's drop test, at once\n"
-      "  hoof study foot-proof                       concealed physics of the foot, a minute");
+      "  hoof study foot-proof                       concealed physics of the foot, a minute\n"
+      "  hoof study grains-check                     the soil's effects against grains, minutes");
   add_study(*command, invocation, "resolution",
             "Spined against plain, open against closed: effect over the scatter of beds",
             run_resolution_study);
@@ -137,6 +150,9 @@ void add_study_command(CLI::App& app, Invocation& invocation) {
   add_fault_matrix(*command, invocation);
   add_drop_law(*command, invocation);
   add_foot_proof(*command, invocation);
+  add_study(*command, invocation, "grains-check",
+            "Spines worn, wall near, firm layer: does fast soil change as grains do?",
+            run_grains_check);
 }
 
 }  // namespace hoof::tools

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <thread>
 
+#include "tools/diagnose/damped_fit.h"
 #include "tools/diagnose/linear_look.h"
 #include "tools/diagnose/noise_left.h"
 #include "tools/diagnose/search_start.h"
+#include "tools/diagnose/threshold_scan.h"
 
 namespace hoof::tools {
 namespace {
@@ -29,39 +31,6 @@ constexpr int kRoughIterations = 5, kCloserIterations = 5, kLastIterations = 5;
 /// next the squares are ragged, not a bowl. A quarter of a slope's step.
 constexpr double kLeastSigma = 0.005;
 
-/// Levenberg and Marquardt's least squares, damped from the first step on: an undamped one that
-/// goes too far in the valley of soil against effect costs as many rollouts as the way there.
-Fit damped_fit(const Fitter& fitter, Fit fit, int iterations, const Fitter::Weights& weights) {
-  constexpr double kFirstDamping = 0.03, kMore = 8, kLess = 0.2, kEnough = 1e-3;
-  constexpr int kTries = 5;
-  const Layout layout(fitter.model(), fit.effects);
-  Eigen::VectorXd r = fitter.residuals(layout, fit.x, weights);
-  fit.objective = 0.5 * r.squaredNorm();
-  double damping = kFirstDamping;
-  for (int i = 0; i < iterations && layout.size() > 0; ++i) {
-    const Eigen::MatrixXd J = fitter.jacobian(layout, fit.x, r, weights);
-    const Eigen::MatrixXd H = J.transpose() * J;
-    const Eigen::VectorXd slope = J.transpose() * r;
-    double gained = 0;
-    for (int k = 0; k < kTries && gained <= 0; ++k) {
-      Eigen::MatrixXd A = H;
-      A.diagonal() += damping * H.diagonal().cwiseMax(1e-12);
-      const Eigen::VectorXd x = fit.x - A.ldlt().solve(slope);
-      const Eigen::VectorXd there = fitter.residuals(layout, x, weights);
-      const double objective = 0.5 * there.squaredNorm();
-      if (objective < fit.objective) {
-        gained = fit.objective - objective;
-        fit.x = x, r = there, fit.objective = objective;
-        damping *= kLess;
-      } else {
-        damping *= kMore;
-      }
-    }
-    if (gained <= kEnough * fit.objective) break;
-  }
-  return fit;
-}
-
 class CostlySearch {
  public:
   CostlySearch(Fitter& fitter, const CostlyOptions& options) : fitter_(fitter), options_(options) {}
@@ -72,7 +41,8 @@ class CostlySearch {
     looked_ = look();
     const LinearBase base(fitter_, Fit(result_.fits[0]), look_weights_);
     fit_roughly(base, promising(options_.rough), 0.2, 0.45, "one effect");
-    follow(best(1, options_.followed), 0.45, 0.7, "one effect");
+    follow(best(1, options_.followed), 0.45, 0.6, "one effect");
+    if (!explained(ranked().front())) scan_thresholds();
     if (!explained(ranked().front())) fit_pairs();
     take_noise_left(fitter_, ranked().front());
     judge_all();
@@ -99,12 +69,16 @@ class CostlySearch {
     say(0, "nominal model");
     Fit nominal;
     nominal.x = Layout(fitter_.model(), {}).stated();
+    wide_squares_ = fitter_.squares(nominal);
     for (const double share : {0.5, kRough}) {
       nominal = damped_fit(fitter_, nominal, kCloserIterations, room(nominal, share));
     }
     result_.fits = {settle(nominal)};
     fitter_.judge(result_.fits[0]);
     look_weights_ = fitter_.roomy_weights(nominal_squares(), kRough);
+    for (std::size_t g = 0; g < wide_squares_.size(); ++g) {
+      wide_squares_[g] = std::max(wide_squares_[g], nominal_squares()[g]);
+    }
   }
 
   const std::vector<double>& nominal_squares() const { return result_.fits[0].squares; }
@@ -237,6 +211,43 @@ class CostlySearch {
     for (const Fit& fit : fits) *find_fit(fit.effects) = fit;
   }
 
+  /// Once for each effect, not for each start: the scan has its own. Channels have the room that
+  /// the setup as stated asks for, where it is more than what the refitted one leaves: a channel
+  /// that the refit made small for the wrong reason, as soil stiffness does a foot's depth, else
+  /// walls off the way to the truth.
+  void scan_thresholds() {
+    std::vector<LinearStart> scanned;
+    for (const LinearStart& start : looked_) {
+      const bool there =
+          std::any_of(scanned.begin(), scanned.end(),
+                      [&start](const LinearStart& s) { return s.effect == start.effect; });
+      const bool enough = static_cast<int>(scanned.size()) >= options_.scanned;
+      if (enough || there || threshold_of(fitter_.model(), start) < 0) continue;
+      scanned.push_back(start);
+    }
+    const auto weights = fitter_.roomy_weights(wide_squares_, kRough);
+    const LinearBase base(fitter_, Fit(result_.fits[0]), weights);
+    for (std::size_t i = 0; i < scanned.size(); ++i) {
+      const double from = 0.6 + 0.1 * double(i) / double(scanned.size());
+      const ScanTasks tasks = [&](std::size_t count, const std::function<void(std::size_t)>& task) {
+        for_all(count, from, from, "where an effect begins", task);
+      };
+      const auto fits = scan_threshold(fitter_, base, scanned[i], weights, tasks);
+      if (!fits.empty()) take_scanned(fits[0]);
+    }
+  }
+
+  void take_scanned(const Fit& scanned) {
+    Fit fit = polish(settle(scanned));
+    fit.squares = fitter_.squares(fit);
+    Fit* known = find_fit(fit.effects);
+    if (known == nullptr) {
+      result_.fits.push_back(std::move(fit));
+    } else if (first_rank(fitter_, fit) > first_rank(fitter_, *known)) {
+      *known = std::move(fit);
+    }
+  }
+
   Fit* find_fit(const Effects& effects) {
     const auto found = std::find_if(result_.fits.begin(), result_.fits.end(),
                                     [&effects](const Fit& f) { return f.effects == effects; });
@@ -321,6 +332,7 @@ class CostlySearch {
   SearchResult result_;
   std::vector<LinearStart> looked_;  // beside the nominal model, best first
   Fitter::Weights look_weights_;
+  std::vector<double> wide_squares_;  // of the nominal model, as stated or refitted: the larger
   std::thread::id caller_ = std::this_thread::get_id();
 };
 

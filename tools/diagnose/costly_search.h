@@ -11,6 +11,7 @@ struct CostlyOptions {
   std::function<bool(double, const std::string&)> progress;
   int rough = 8;        // effects that are fitted roughly, those that a first look promises most of
   int followed = 3;     // of which are fitted to the end
+  int scanned = 2;      // effects with a threshold that are scanned for it
   int pair_bases = 2;   // single effects that others are tried beside
   int rough_pairs = 5;  // pairs that are fitted roughly
   int followed_pairs = 2;
@@ -18,8 +19,8 @@ struct CostlyOptions {
 };
 
 /// As search(), in stages that each keep fewer hypotheses than the one before. Effects at a joint
-/// whose drive tells nothing that the nominal model does not are not tried. Pairs are tried only
-/// where no single effect explains what is there to explain.
+/// whose drive tells nothing that the nominal model does not are not tried. Thresholds are scanned
+/// for, and pairs tried, only where no single effect explains what is there to explain.
 SearchResult costly_search(Fitter& fitter, const CostlyOptions& options);
 
 }  // namespace hoof::tools

@@ -10,6 +10,7 @@
 
 #include "tools/diagnose/linear_look.h"
 #include "tools/diagnose/prediction_cache.h"
+#include "tools/diagnose/threshold_scan.h"
 
 using namespace hoof;
 using namespace hoof::tools;
@@ -192,6 +193,39 @@ TEST_CASE("a linear look moves what was fitted along with the effect, from one r
   CHECK(layout.active(x)[0].values[0] == Approx(2).epsilon(0.02));
   // A ratio is a size about 1, both ways.
   for (const LinearStart& s : starts_of(press, press.effect("layer"))) CHECK(s.size == 1);
+}
+
+TEST_CASE("where an effect begins is found between the starts of the catalogue and beside them") {
+  // A layer that most of the press is in, as at 0.13, is a stiffer soil more than a layer.
+  const double depth = GENERATE(0.29, 0.45, 0.66, 0.9), ratio = GENERATE(0.4, 2.0, 5.0);
+  const Press press({{"layer", {depth, ratio}}});
+  const Fitter fitter(press);
+  Fit nominal;
+  nominal.x = Layout(press, {}).stated();
+  nominal = fitter.fit({}, nominal.x, 20, fitter.roomy_weights(fitter.squares(nominal), 0.3));
+  const auto weights = fitter.roomy_weights(fitter.squares(nominal), 0.3);
+  const LinearBase base(fitter, nominal, weights);
+  const LinearStart start = starts_of(press, press.effect("layer")).front();
+  CHECK(threshold_of(press, start) == 0);
+  const ScanTasks in_turn = [](std::size_t count, const std::function<void(std::size_t)>& task) {
+    for (std::size_t i = 0; i < count; ++i) task(i);
+  };
+  press.rollouts = 0;
+  const auto fits = scan_threshold(fitter, base, start, weights, in_turn);
+  CHECK(press.rollouts < 400);
+  REQUIRE(!fits.empty());
+  for (std::size_t i = 1; i < fits.size(); ++i) CHECK(fits[0].objective <= fits[i].objective);
+  const auto found = Layout(press, fits[0].effects).active(fits[0].x).front().values;
+  INFO(depth << " " << ratio << ", found " << found[0] << " " << found[1]);
+  CHECK(found[0] == Approx(depth).epsilon(0.04));
+  CHECK(found[1] == Approx(ratio).epsilon(0.15));
+}
+
+TEST_CASE("an effect without a place to begin at, or without a size, has no threshold") {
+  const Press press({});
+  for (const char* name : {"bend", "ridge", "play@toe"}) {
+    CHECK(threshold_of(press, starts_of(press, press.effect(name)).front()) == -1);
+  }
 }
 
 TEST_CASE("rollouts are kept bit by bit, and forgotten before they fill the memory") {
