@@ -8,10 +8,12 @@ namespace hoof::tools {
 
 // One function per command, each in a file of its own: adds the command to `app` and arranges
 // that parsing it fills `invocation`.
+void add_anova_command(CLI::App& app, Invocation& invocation);
 void add_bed_command(CLI::App& app, Invocation& invocation);
 void add_compare_command(CLI::App& app, Invocation& invocation);
 void add_conceal_command(CLI::App& app, Invocation& invocation);
 void add_dbc_command(CLI::App& app, Invocation& invocation);
+void add_design_command(CLI::App& app, Invocation& invocation);
 void add_diagnose_command(CLI::App& app, Invocation& invocation);
 void add_faults_command(CLI::App& app, Invocation& invocation);
 void add_log_command(CLI::App& app, Invocation& invocation);

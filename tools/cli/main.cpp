@@ -58,6 +58,8 @@ int main(int argc, char** argv) {
   add_compare_command(app, invocation);
   add_diagnose_command(app, invocation);
   add_simulate_command(app, invocation);
+  add_design_command(app, invocation);
+  add_anova_command(app, invocation);
   add_conceal_command(app, invocation);
   add_version_command(app, invocation);
 

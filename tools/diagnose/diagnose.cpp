@@ -262,7 +262,7 @@ void Diagnosis::name_effects() {
     const DoubtfulValue& doubt = model_.doubtful()[i];
     verdict_.setup.push_back({doubt.name, doubt.value, doubt.sigma,
                               before.setup_value(i, none().x[i]),
-                              after.setup_value(i, winner_->x[i])});
+                              after.setup_value(i, winner_->x[i]), !doubt.stated});
   }
   for (const Standing& s : judgement_.standings) {
     double samples = 0;

@@ -106,7 +106,8 @@ std::string effects_file_text(const Verdict& verdict, const std::vector<std::str
     text += "\n# Refitted; all other values of the setup stand in the data set.\n[setup]\n";
     for (const SetupEstimate& s : verdict.setup) {
       text += line(s.name, s.after,
-                   "stated " + format_number(s.stated) + ", sigma " + format_number(s.sigma));
+                   (s.guessed ? "guessed " : "stated ") + format_number(s.stated) + ", sigma " +
+                       format_number(s.sigma));
     }
   }
   for (const std::string& name : verdict.named) {

@@ -39,6 +39,12 @@ bool all_smaller(const Errors& a, const Errors& b) {
   });
 }
 
+/// A number that someone stated, and that a fit contradicts.
+bool far_from_stated(const RigModel& model, const Eigen::VectorXd& x, Eigen::Index i) {
+  constexpr double kFar = 2.5;  // sigmas
+  return model.doubtful()[static_cast<std::size_t>(i)].stated && std::abs(x[i]) >= kFar;
+}
+
 }  // namespace
 
 void write_evidence(const Judgement& judgement, const Fitter& fitter, const Fit& none,
@@ -58,7 +64,7 @@ void write_evidence(const Judgement& judgement, const Fitter& fitter, const Fit&
   pro.push_back("With its doubtful numbers refitted the nominal model leaves " + number(floor) +
                 " times the noise of the sensors.");
   for (Eigen::Index i = 0; i < none.x.size(); ++i) {
-    if (std::abs(none.x[i]) < 2.5) continue;
+    if (!far_from_stated(fitter.model(), none.x, i)) continue;
     contra.push_back("To fit, the nominal model takes " +
                      fitter.model().doubtful()[static_cast<std::size_t>(i)].name + " " +
                      number(std::abs(none.x[i])) + " sigma from what the operator stated.");
@@ -78,7 +84,7 @@ void write_evidence(const Judgement& judgement, const Fitter& fitter, const Fit&
           "effect's form is only near the truth.");
     }
     for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(fitter.model().doubtful().size()); ++i) {
-      if (std::abs(winner.x[i]) < 2.5) continue;
+      if (!far_from_stated(fitter.model(), winner.x, i)) continue;
       contra.push_back("It needs " + fitter.model().doubtful()[static_cast<std::size_t>(i)].name +
                        " " + number(std::abs(winner.x[i])) + " sigma from what was stated.");
     }

@@ -196,6 +196,7 @@ void PendulumModel::add_doubts(Run& run) {
     if (index == static_cast<int>(doubtful_.size())) {
       doubtful_.push_back({name, value->value, value->sigma, 0});
       if (own) doubtful_.back().recording = static_cast<int>(runs_.size());
+      doubtful_.back().stated = stated != nullptr;
     }
     run.doubts[key.name] = index;
   }

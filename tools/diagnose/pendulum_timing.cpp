@@ -33,7 +33,7 @@ void PendulumModel::add_timing(Run& run) {
   int index = 0;
   while (index < static_cast<int>(doubtful_.size()) && doubtful_[index].name != name) ++index;
   if (index == static_cast<int>(doubtful_.size())) {
-    doubtful_.push_back({name, 0, sigma, -kMostTiming * sigma, kMostTiming * sigma});
+    doubtful_.push_back({name, 0, sigma, -kMostTiming * sigma, kMostTiming * sigma, -1, false});
   }
   run.timing = index;
   add_switch_timing(run, sample_s);
@@ -48,7 +48,7 @@ void PendulumModel::add_switch_timing(Run& run, double sample_s) {
   const double sigma = kSwitchShare * sample_s;
   run.switch_timing = static_cast<int>(doubtful_.size());
   doubtful_.push_back({"switch_timing@" + run.recording->name, 0, sigma, -kMostTiming * sigma,
-                       kMostTiming * sigma, static_cast<int>(runs_.size())});
+                       kMostTiming * sigma, static_cast<int>(runs_.size()), false});
 }
 
 /// A loop that is soft, or at its limit, remembers the speed it began with for long; a few samples
@@ -60,7 +60,7 @@ void PendulumModel::add_start_speed(Run& run) {
   run.start_speed = static_cast<int>(doubtful_.size());
   doubtful_.push_back({"start_speed@" + run.recording->name, run.fitted_start.velocity_rad_s,
                        kChosen * run.start_speed_doubt_rad_s, -kAny, kAny,
-                       static_cast<int>(runs_.size())});
+                       static_cast<int>(runs_.size()), false});
 }
 
 /// A recorded torque has noise that the joint never felt. How much of it is noise is for the
@@ -73,7 +73,7 @@ void PendulumModel::add_smoothing(Run& run) {
   while (index < static_cast<int>(doubtful_.size()) && doubtful_[index].name != name) ++index;
   if (index == static_cast<int>(doubtful_.size())) {
     doubtful_.push_back({name, static_cast<double>(kUsualSmoothing), 1, 0,
-                         static_cast<double>(kSmoothingSpans.size() - 1)});
+                         static_cast<double>(kSmoothingSpans.size() - 1), -1, false});
   }
   run.smoothing = index;
 }

@@ -234,11 +234,12 @@ std::string setup_html(const Verdict& verdict) {
   std::string rows;
   for (const SetupEstimate& s : verdict.setup) {
     const double off = s.sigma > 0 ? (s.after - s.stated) / s.sigma : 0;
-    const bool far = std::abs(off) > kFarFromStated;
-    rows += (far ? "<tr class=\"refused\">" : "<tr>") + cell(s.name) +
-            number_cell(number(s.stated) + " ± " + number(s.sigma)) +
-            number_cell(number(s.before)) + number_cell(number(s.after)) +
-            number_cell(number(off)) + "</tr>\n";
+    const bool far = !s.guessed && std::abs(off) > kFarFromStated;
+    rows +=
+        (far ? "<tr class=\"refused\">" : "<tr>") + cell(s.name) +
+        number_cell((s.guessed ? "(guess) " : "") + number(s.stated) + " ± " + number(s.sigma)) +
+        number_cell(number(s.before)) + number_cell(number(s.after)) + number_cell(number(off)) +
+        "</tr>\n";
   }
   return element("h2", "Values of the setup, stated and refitted", " id=\"setup\"") +
          table({"value", "#stated", "#refitted, nominal model", "#refitted, with what was found",

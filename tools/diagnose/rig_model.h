@@ -21,6 +21,7 @@ struct DoubtfulValue {
   double low = 0;  // -infinity where it may be negative
   double high = std::numeric_limits<double>::infinity();
   int recording = -1;  // the only one whose prediction it changes; -1: any
+  bool stated = true;  // by the data set; else what a recording leaves open, and value a guess
 };
 
 struct ActiveEffect {

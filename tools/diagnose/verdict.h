@@ -78,6 +78,7 @@ struct ChannelTrace {
 struct SetupEstimate {  // of a doubtful setup value, in the nominal model and in the winner
   std::string name;
   double stated = 0, sigma = 0, before = 0, after = 0;
+  bool guessed = false;  // no one stated it: stated and sigma are what can be guessed beforehand
 };
 
 struct Verdict {

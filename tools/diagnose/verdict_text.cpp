@@ -105,7 +105,8 @@ std::string setup_text(const Verdict& verdict) {
   if (verdict.setup.empty()) return "nothing was in doubt";
   std::vector<std::string> words;
   for (const SetupEstimate& s : verdict.setup) {
-    words.push_back(s.name + " " + format_significant(s.after, kDigits) + " (stated " +
+    words.push_back(s.name + " " + format_significant(s.after, kDigits) +
+                    (s.guessed ? " (guessed " : " (stated ") +
                     format_significant(s.stated, kDigits) + ")");
   }
   const std::size_t more = words.size() > kShownSetup ? words.size() - kShownSetup : 0;
