@@ -26,13 +26,13 @@ struct Switching {
   double until = 1;
 };
 
-/// A recorded input between its samples: linear, a cubic where slopes are known, or the nearest
+/// A recorded input between its samples: linear, a cubic where its bend is known, or the nearest
 /// where it is a switch. Cursors only go forward but for goals that are read late.
 class Signal {
  public:
   Signal(std::span<const double> time_s, std::span<const double> values,
-         std::span<const double> slopes = {})
-      : time_s_(time_s), values_(values), slopes_(slopes) {}
+         std::span<const SlopeOffset> bends = {})
+      : time_s_(time_s), values_(values), bends_(bends) {}
 
   bool present() const { return !values_.empty(); }
 
@@ -42,10 +42,9 @@ class Signal {
     if (i + 1 >= values_.size() || t_s <= time_s_[i]) return values_[i];
     const double span = time_s_[i + 1] - time_s_[i];
     const double x = (t_s - time_s_[i]) / span;
-    const double rise = values_[i + 1] - values_[i];
-    if (slopes_.empty()) return values_[i] + x * rise;
-    const double a = span * slopes_[i], b = span * slopes_[i + 1];
-    return values_[i] + x * (a + x * (3 * rise - 2 * a - b + x * (a + b - 2 * rise)));
+    const double straight = values_[i] + x * (values_[i + 1] - values_[i]);
+    if (bends_.empty()) return straight;
+    return straight + span * x * (1 - x) * ((1 - x) * bends_[i].start - x * bends_[i].end);
   }
   std::size_t nearest(double t_s) {
     seek(t_s);
@@ -70,7 +69,8 @@ class Signal {
     while (cursor_ + 1 < time_s_.size() && time_s_[cursor_ + 1] <= t_s + 1e-9) ++cursor_;
   }
 
-  std::span<const double> time_s_, values_, slopes_;
+  std::span<const double> time_s_, values_;
+  std::span<const SlopeOffset> bends_;
   std::size_t cursor_ = 0;
 };
 
@@ -107,9 +107,9 @@ class Pendulum {
         stages_(effects),
         correction_(correction),
         out_(out),
-        goal_(in.time_s, in.position_goal_rad, in.position_goal_slope_rad_s),
-        velocity_goal_(in.time_s, in.velocity_goal_rad_s, in.velocity_goal_slope_rad_s2),
-        feed_forward_(in.time_s, in.torque_ff_Nm, in.torque_ff_slope_Nm_s),
+        goal_(in.time_s, in.position_goal_rad, in.position_goal_bend_rad_s),
+        velocity_goal_(in.time_s, in.velocity_goal_rad_s, in.velocity_goal_bend_rad_s2),
+        feed_forward_(in.time_s, in.torque_ff_Nm, in.torque_ff_bend_Nm_s),
         enable_(in.time_s, in.enable),
         supply_(in.time_s, in.supply_V),
         torque_(in.time_s, in.torque_Nm) {

@@ -48,6 +48,11 @@ struct PendulumSettings {
   double gravity_torque_Nm() const;  // g l (m + m_a/2)
 };
 
+/// Of a path between two samples, less the slope of the line through both.
+struct SlopeOffset {
+  double start = 0, end = 0;
+};
+
 /// Of one recording; an empty span is a channel that was not recorded. All as long as time_s.
 struct PendulumInputs {
   std::span<const double> time_s;
@@ -58,10 +63,11 @@ struct PendulumInputs {
   std::span<const double> supply_V;
   std::span<const double> torque_Nm;  // of the law kTorque
 
-  /// Of goals between their samples: a cubic by these at the samples; empty: linear.
-  std::span<const double> position_goal_slope_rad_s;
-  std::span<const double> velocity_goal_slope_rad_s2;
-  std::span<const double> torque_ff_slope_Nm_s;
+  /// Of goals between a sample and the next: a cubic whose slopes at both ends are off by so much
+  /// from the straight line's; empty: linear.
+  std::span<const SlopeOffset> position_goal_bend_rad_s;
+  std::span<const SlopeOffset> velocity_goal_bend_rad_s2;
+  std::span<const SlopeOffset> torque_ff_bend_Nm_s;
 
   /// Where known: at which samples the drive went without a new goal; null: all arrived.
   const std::vector<bool>* lost = nullptr;

@@ -156,7 +156,7 @@ void PendulumModel::add(const DataSet& data_set, const Recording& recording) {
   run.inputs.supply_V = recording.values("supply_voltage");
   if (law == DriveLaw::kTorque) run.inputs.torque_Nm = recording.values("torque");
   run.inputs.position_rad = recording.values("position");
-  run.goal_slopes = goal_slopes(recording);
+  run.goal_bends = goal_bends(recording);
   for (const char* name : {"position", "velocity", "torque", "current"}) {
     if (recording.has(name) && !is_input(name, law)) run.channels.push_back(name);
   }
@@ -426,9 +426,9 @@ void PendulumModel::simulate(const Run& run, std::span<const double> setup,
   std::vector<std::unique_ptr<JointEffect>> owned;
   std::vector<JointEffect*> effects;
   sim::PendulumInputs inputs = run.inputs;
-  inputs.position_goal_slope_rad_s = run.goal_slopes.position;
-  inputs.velocity_goal_slope_rad_s2 = run.goal_slopes.velocity;
-  inputs.torque_ff_slope_Nm_s = run.goal_slopes.torque;
+  inputs.position_goal_bend_rad_s = run.goal_bends.position;
+  inputs.velocity_goal_bend_rad_s2 = run.goal_bends.velocity;
+  inputs.torque_ff_bend_Nm_s = run.goal_bends.torque;
   for (const ActiveEffect& effect : active) {
     if (effect.info->name == "frame_loss" && !run.losses.lost.empty()) {
       // Which goals were lost stands in the recording; drawing them anew would tell nothing.

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "sim/rigs/servo_pendulum.h"
+#include "tools/diagnose/goal_bends.h"
 #include "tools/diagnose/goal_losses.h"
-#include "tools/diagnose/goal_slopes.h"
 #include "tools/diagnose/rig_model.h"
 
 namespace hoof::tools {
@@ -58,7 +58,7 @@ class PendulumModel final : public RigModel {
     int start_speed = -1;                // the same; where it begins in motion
     int smoothing = -1;                  // the same; of a torque that is an input
     double start_speed_doubt_rad_s = 0;  // 1 sigma; 0: it begins at rest, or nothing tells
-    GoalSlopes goal_slopes;
+    GoalBends goal_bends;
     GoalLosses losses;
     std::map<std::string, int> doubts;  // key of the setup to index in doubtful_
 
