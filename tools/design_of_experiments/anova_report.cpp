@@ -94,6 +94,10 @@ std::string variance_text(const ResponseSurface& s) {
         text("%-14s %14s %4d %14s %12s %9s\n", r.source.c_str(), number(r.sum_of_squares).c_str(),
              r.freedom, number(r.mean_square).c_str(), number(r.f).c_str(), p_text(r.p).c_str());
   }
+  if (s.residual_freedom() < 1) {
+    return out +
+           "\nAs many terms as runs: the surface goes through all of them; no variance is told.\n";
+  }
   out += text(
       "\nR2 %.4f   adjusted %.4f   predicted %.4f   adequate precision %.1f   residual %.4g\n",
       s.r2(), s.adjusted_r2(), s.predicted_r2(), s.adequate_precision(), s.residual_deviation());

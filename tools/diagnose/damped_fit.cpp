@@ -3,24 +3,6 @@
 #include <Eigen/Dense>
 
 namespace hoof::tools {
-namespace {
-
-/// As Fitter::jacobian; the column of what is held is zero, and costs no rollout.
-Eigen::MatrixXd slopes(const Fitter& fitter, const Layout& layout, const Eigen::VectorXd& x,
-                       const Eigen::VectorXd& r, const Fitter::Weights& weights, int held) {
-  if (held < 0) return fitter.jacobian(layout, x, r, weights);
-  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(r.size(), layout.size());
-  for (int i = 0; i < layout.size(); ++i) {
-    if (i == held) continue;
-    Eigen::VectorXd shifted = x;
-    shifted[i] += layout.step(i);
-    J.col(i) = (fitter.residuals(layout, shifted, weights) - r) / layout.step(i);
-  }
-  return J;
-}
-
-}  // namespace
-
 Fit damped_fit(const Fitter& fitter, Fit fit, int iterations, const Fitter::Weights& weights,
                int held) {
   constexpr double kFirstDamping = 0.03, kMore = 8, kLess = 0.2, kEnough = 1e-3;
@@ -30,7 +12,7 @@ Fit damped_fit(const Fitter& fitter, Fit fit, int iterations, const Fitter::Weig
   fit.objective = 0.5 * r.squaredNorm();
   double damping = kFirstDamping;
   for (int i = 0; i < iterations && layout.size() > 0; ++i) {
-    const Eigen::MatrixXd J = slopes(fitter, layout, fit.x, r, weights, held);
+    const Eigen::MatrixXd J = fitter.jacobian(layout, fit.x, r, weights, held);
     const Eigen::MatrixXd H = J.transpose() * J;
     const Eigen::VectorXd slope = J.transpose() * r;
     double gained = 0;

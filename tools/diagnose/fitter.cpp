@@ -176,9 +176,10 @@ void Fitter::fill(const Layout& layout, const Eigen::VectorXd& x, const Weights&
 }
 
 Eigen::MatrixXd Fitter::jacobian(const Layout& layout, const Eigen::VectorXd& x,
-                                 const Eigen::VectorXd& r, const Weights& weights) const {
-  Eigen::MatrixXd J(r.size(), layout.size());
+                                 const Eigen::VectorXd& r, const Weights& weights, int held) const {
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(r.size(), layout.size());
   for (int i = 0; i < layout.size(); ++i) {
+    if (i == held) continue;
     Eigen::VectorXd shifted = x, there = r;
     shifted[i] += layout.step(i);
     const bool setup = i < layout.setup_count();

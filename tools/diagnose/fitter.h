@@ -57,8 +57,9 @@ class Fitter {
   /// grow by the root only: a rollout that went another way must not hide all else.
   Eigen::VectorXd residuals(const Layout& layout, const Eigen::VectorXd& x,
                             const Weights& weights) const;
+  /// @param held a coordinate whose column stays zero, and costs no rollout; -1: none
   Eigen::MatrixXd jacobian(const Layout& layout, const Eigen::VectorXd& x, const Eigen::VectorXd& r,
-                           const Weights& weights) const;
+                           const Weights& weights, int held = -1) const;
 
   /// Least squares from x. @param iterations at most
   Fit fit(const Effects& effects, const Eigen::VectorXd& x, int iterations, const Weights& weights,

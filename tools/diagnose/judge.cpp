@@ -33,8 +33,8 @@ constexpr double kLeastStructure = 0.004;
 constexpr double kDoubt = 0.07;
 
 /// Held-out recordings that a hypothesis explains worse than nothing does, by more than this in log
-/// likelihood: what it explains in the others is something else. Of 266 concealed effects found
-/// with their true names one was.
+/// likelihood: what it explains in the others is something else. So it was of one in 266 fits of
+/// what concealed plants truly had.
 constexpr double kContradicted = 6;
 
 /// A held-out channel of one recording decides no more than this, in log likelihood.

@@ -191,15 +191,20 @@ void PendulumModel::add_doubts(Run& run) {
     const bool own =
         stated && (!shared || shared->value != value->value || shared->sigma != value->sigma);
     const std::string name = own ? std::string(key.name) + "@" + run.recording->name : key.name;
-    int index = 0;
-    while (index < static_cast<int>(doubtful_.size()) && doubtful_[index].name != name) ++index;
-    if (index == static_cast<int>(doubtful_.size())) {
-      doubtful_.push_back({name, value->value, value->sigma, 0});
-      if (own) doubtful_.back().recording = static_cast<int>(runs_.size());
-      doubtful_.back().stated = stated != nullptr;
-    }
-    run.doubts[key.name] = index;
+    DoubtfulValue doubt{name, value->value, value->sigma, 0};
+    if (own) doubt.recording = static_cast<int>(runs_.size());
+    doubt.stated = stated != nullptr;
+    run.doubts[key.name] = shared_doubt(doubt);
   }
+}
+
+int PendulumModel::shared_doubt(const DoubtfulValue& doubt) {
+  const auto there =
+      std::find_if(doubtful_.begin(), doubtful_.end(),
+                   [&doubt](const DoubtfulValue& d) { return d.name == doubt.name; });
+  if (there != doubtful_.end()) return static_cast<int>(there - doubtful_.begin());
+  doubtful_.push_back(doubt);
+  return static_cast<int>(doubtful_.size()) - 1;
 }
 
 PendulumSettings PendulumModel::settings(const Run& run, std::span<const double> setup) const {

@@ -70,6 +70,8 @@ class PendulumModel final : public RigModel {
   static double stated_noise(const DataSet& data_set, const std::string& channel);
   void add(const DataSet& data_set, const Recording& recording);
   void add_doubts(Run& run);
+  /// Its index; of two with one name there is one.
+  int shared_doubt(const DoubtfulValue& doubt);
   void add_timing(Run& run);
   void add_switch_timing(Run& run, double sample_s);
   void add_start_speed(Run& run);

@@ -30,12 +30,7 @@ void PendulumModel::add_timing(Run& run) {
   const bool torque = run.settings.law == PendulumLaw::kTorque;
   const std::string name = torque ? "torque_timing" : "goal_timing";
   const double sigma = kPeriodShare * run.settings.control_period_s + kSampleShare * sample_s;
-  int index = 0;
-  while (index < static_cast<int>(doubtful_.size()) && doubtful_[index].name != name) ++index;
-  if (index == static_cast<int>(doubtful_.size())) {
-    doubtful_.push_back({name, 0, sigma, -kMostTiming * sigma, kMostTiming * sigma, -1, false});
-  }
-  run.timing = index;
+  run.timing = shared_doubt({name, 0, sigma, -kMostTiming * sigma, kMostTiming * sigma, -1, false});
   add_switch_timing(run, sample_s);
 }
 
@@ -68,14 +63,8 @@ void PendulumModel::add_start_speed(Run& run) {
 /// found for smoothing it.
 void PendulumModel::add_smoothing(Run& run) {
   if (smoothed_Nm_.count(run.recording) == 0) return;
-  const std::string name = "torque_smoothing";
-  int index = 0;
-  while (index < static_cast<int>(doubtful_.size()) && doubtful_[index].name != name) ++index;
-  if (index == static_cast<int>(doubtful_.size())) {
-    doubtful_.push_back({name, static_cast<double>(kUsualSmoothing), 1, 0,
-                         static_cast<double>(kSmoothingSpans.size() - 1), -1, false});
-  }
-  run.smoothing = index;
+  run.smoothing = shared_doubt({"torque_smoothing", static_cast<double>(kUsualSmoothing), 1, 0,
+                                static_cast<double>(kSmoothingSpans.size() - 1), -1, false});
 }
 
 /// Between two of the spans, the mean of both by how near they are.

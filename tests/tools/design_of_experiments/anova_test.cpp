@@ -205,6 +205,11 @@ TEST_CASE("anova: bad data are named") {
   CHECK(says(o, "no column b; there are a, y") == "no column b; there are a, y");
   o.data = file("a,b,y\n1,x,2\n");
   CHECK(says(o, "d.csv:2") == "d.csv:2");
+  // Through as many runs as terms a surface always goes.
+  o.model = SurfaceModel::kLinear;
+  o.data = file("a,b,y\n1,2,3\n2,3,4\n3,2,5\n");
+  CHECK(run_anova(o).find("no variance is told") != std::string::npos);
+  o.model = SurfaceModel::kQuadratic;
   o.response = "a";
   CHECK(says(o, "a is a factor and the response") == "a is a factor and the response");
   o = {};

@@ -196,7 +196,8 @@ TEST_CASE("a linear look moves what was fitted along with the effect, from one r
 }
 
 TEST_CASE("where an effect begins is found between the starts of the catalogue and beside them") {
-  // A layer that most of the press is in, as at 0.13, is a stiffer soil more than a layer.
+  // Not found, and so not here: (0.13, 5), for which the scan answers (0.148, 3.3). Most of that
+  // press is in the layer, which a stiffer soil explains nearly as well (README there: limits).
   const double depth = GENERATE(0.29, 0.45, 0.66, 0.9), ratio = GENERATE(0.4, 2.0, 5.0);
   const Press press({{"layer", {depth, ratio}}});
   const Fitter fitter(press);

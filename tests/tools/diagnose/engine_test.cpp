@@ -64,11 +64,11 @@ DataSet blank(double wrong) {
   return set;
 }
 
-/// What a plant with these effects gives, with noise; the set's own setup is off by `wrong`.
-DataSet made(const std::vector<ActiveEffect>& effects, double wrong, std::uint64_t seed) {
-  DataSet truth = blank(1);
+/// Puts what a plant with the setup and goals of `truth` and these effects gives, with noise, into
+/// the set.
+void record(const DataSet& truth, const std::vector<ActiveEffect>& effects, std::uint64_t seed,
+            DataSet& set) {
   const PendulumModel plant({truth});
-  DataSet set = blank(wrong);
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
   std::vector<double> setup;
@@ -81,6 +81,12 @@ DataSet made(const std::vector<ActiveEffect>& effects, double wrong, std::uint64
       channels["torque"][i] = p[1][i] + kTorqueNoise_Nm * normal(random);
     }
   }
+}
+
+/// The set's own setup is off by `wrong`.
+DataSet made(const std::vector<ActiveEffect>& effects, double wrong, std::uint64_t seed) {
+  DataSet set = blank(wrong);
+  record(blank(1), effects, seed, set);
   return set;
 }
 
@@ -128,20 +134,7 @@ TEST_CASE(
       r.channels["position"].assign(1000, r.channels["position_goal"][0]);
     }
   }
-  const PendulumModel plant({truth});
-  std::mt19937_64 random(15);
-  std::normal_distribution<double> normal;
-  std::vector<double> setup;
-  for (const DoubtfulValue& d : plant.doubtful()) setup.push_back(d.value);
-  const std::vector<ActiveEffect> spring = {effect("parasitic_spring", {0.2, -0.4})};
-  for (int k = 0; k < plant.recordings(); ++k) {
-    const Prediction p = plant.predict(k, setup, spring, Rollout::kFree);
-    auto& channels = set.recordings[static_cast<std::size_t>(k)].channels;
-    for (std::size_t i = 0; i < 1000; ++i) {
-      channels["position"][i] = p[0][i] + kPositionNoise_rad * normal(random);
-      channels["torque"][i] = p[1][i] + kTorqueNoise_Nm * normal(random);
-    }
-  }
+  record(truth, {effect("parasitic_spring", {0.2, -0.4})}, 15, set);
   const Verdict verdict = diagnose({set}, {});
   CHECK(verdict.verdict == "not_separable");
   REQUIRE_FALSE(verdict.not_separable.empty());
