@@ -385,7 +385,7 @@ std::vector<RigModel::Counted> PendulumModel::counted(const sim::EffectInfo& eff
   // Lost or not is a chain of two states, seen at each sample of `periods` periods.
   double samples = 0, lost = 0, stays = 0, periods = 0, bursts = 0;
   for (const Run& run : runs_) {
-    if (run.losses.lost.empty()) continue;
+    if (run.recording->holdout || run.losses.lost.empty()) continue;
     const auto n = static_cast<double>(run.losses.lost.size());
     const double span = run.inputs.time_s.back() - run.inputs.time_s.front();
     const double period =
@@ -401,7 +401,10 @@ std::vector<RigModel::Counted> PendulumModel::counted(const sim::EffectInfo& eff
   const double memory = std::clamp((stays / lost - share) / (1 - share), 1e-6, 1 - 1e-6);
   const double leaves = 1 - std::pow(memory, 1 / each);
   const double p = share * leaves, burst = 1 / ((1 - share) * leaves);
-  const double wide = 1.96 / std::sqrt(bursts);
+  // Chance in how many bursts there were; and those that change the goal by less than the noise are
+  // not seen, or not to their end.
+  constexpr double kMisread = 0.35;
+  const double wide = std::hypot(1.96 / std::sqrt(bursts), kMisread);
   return {
       {0, p, p * std::exp(-wide), p * std::exp(wide)},
       {1, std::max(burst, 1.0), std::max(burst * std::exp(-wide), 1.0), burst * std::exp(wide)}};

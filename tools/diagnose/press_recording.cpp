@@ -10,9 +10,10 @@ namespace hoof::tools {
 namespace {
 
 constexpr std::size_t kSideSamples = 3;
-constexpr double kMostSide_s = 0.1;     // of the line that tells the speed
-constexpr double kSpeedDoubt = 0.02;    // of the largest speed: what that line should not exceed
-constexpr double kSteadyDoubt = 0.005;  // the same where the speed is steady
+constexpr double kMostSide_s = 0.1;      // of the line that tells the speed
+constexpr double kMostSteadySide_s = 5;  // and where that is steady
+constexpr double kSpeedDoubt = 0.02;     // of the largest speed: what that line should not exceed
+constexpr double kSteadyDoubt = 0.001;   // the same where the speed is steady
 constexpr double kNoises = 3;
 constexpr double kStraight = 1;  // deviations of what a line through noise leaves
 
@@ -125,7 +126,7 @@ double steady_slope(std::span<const double> time_s, std::span<const double> valu
   Line best = fit_line(time_s, values, at - std::min(at, side), std::min(at + side, count - 1));
   const double sample_s =
       (time_s[count - 1] - time_s[0]) / static_cast<double>(std::max<std::size_t>(count - 1, 1));
-  for (std::size_t h = 1; static_cast<double>(h) * sample_s < kMostSide_s; ++h) {
+  for (std::size_t h = 1; static_cast<double>(h) * sample_s < kMostSteadySide_s; h += 1 + h / 8) {
     if (best.spread_s2 >= enough_s2 || h > at || at + h >= count) break;
     const Line line = fit_line(time_s, values, at - h, at + h);
     const double freedom = 2 * static_cast<double>(h) - 1;

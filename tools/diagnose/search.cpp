@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "tools/diagnose/noise_left.h"
+#include "tools/diagnose/refit.h"
 #include "tools/diagnose/search_start.h"
 
 namespace hoof::tools {
@@ -15,8 +16,14 @@ namespace {
 constexpr double kAlmostNothing = 1e-4;
 /// Starts of one hypothesis that gain this share less than its best after a rough fit are left.
 constexpr double kBehind = 0.05;
-/// What makes up for less than this share of another effect's work, linearly, is no imitation.
+/// Of the best, so many are fitted from other setups too, after each round.
+constexpr std::size_t kAgain = 2;
+/// So many of the best take what the best two found.
+constexpr std::size_t kTakers = 10;
+/// What gains less than this share of what the best effect does, each scaled as its linear step has
+/// it and with the setup giving way, is no imitation; and so many are followed.
 constexpr double kImitates = 0.5;
+constexpr std::size_t kImitations = 4;
 
 class Search {
  public:
@@ -25,11 +32,14 @@ class Search {
   SearchResult run() {
     fit_nominal();
     fit_singles();
+    fit_best_again(1, 0.4, 0.46, "one effect");
     fit_imitations();
     fit_pairs();
+    fit_best_again(2, 0.68, 0.74, "pairs");
     fit_crosswise();
     take_noise_of_best();
     fit_contenders();
+    fit_best_again(2, 0.95, 1, "contenders");
     say(1, "done");
     return std::move(result_);
   }
@@ -52,39 +62,59 @@ class Search {
     result_.fits = {nominal};
   }
 
-  /// Least squares in three rounds: the less a fit leaves, the less room the next gives it.
-  Fit settle(Fit fit) const {
-    for (const double share : {0.5, 0.15}) {
-      const auto weights = fitter_.roomy_weights(fitter_.squares(fit), share);
-      fit = fitter_.fit(fit.effects, fit.x, 6, weights, 1e-3);
+  Fit settle(Fit fit) const { return tools::settle(fitter_, std::move(fit), options_.iterations); }
+
+  /// The best so far, of so many effects at most, from other setups than where they were found; of
+  /// a pair that leads its members too, which must not lose against it only because they are stuck.
+  void fit_best_again(std::size_t effects, double from, double to, const std::string& what) {
+    std::vector<Fit> fits = ranked();
+    std::erase_if(fits, [effects](const Fit& f) {
+      return f.effects.empty() || f.effects.size() > effects || !listed(f.effects);
+    });
+    std::vector<Fit> best;
+    for (Fit& fit : fits) {
+      const bool member = !best.empty() && best.front().effects.size() > fit.effects.size() &&
+                          part_of(fit.effects, best.front().effects);
+      if (best.size() < kAgain || member) best.push_back(std::move(fit));
     }
-    return fitter_.fit(fit.effects, fit.x, options_.iterations, fitter_.weights());
+    run_all(best.size(), from, to, what, [&](std::size_t i) {
+      best[i] = fit_again(fitter_, best[i], options_.iterations);
+      fitter_.judge(best[i]);
+    });
+    for (Fit& fit : best) keep(std::move(fit));
+  }
+
+  /// Runs task(0..count-1) on the threads and says how far it is.
+  void run_all(std::size_t count, double from, double to, const std::string& what,
+               const std::function<void(std::size_t)>& task) {
+    std::atomic<int> done{0};
+    for_each_task(static_cast<int>(count), options_.threads, [&](int i) {
+      task(static_cast<std::size_t>(i));
+      const double share = ++done / static_cast<double>(count);
+      if (std::this_thread::get_id() == caller_) say(from + (to - from) * share, what);
+    });
+  }
+
+  /// Of each hypothesis the best fit stays.
+  void keep(Fit fit) {
+    for (Fit& known : result_.fits) {
+      if (known.effects != fit.effects) continue;
+      if (fit.objective < known.objective) known = std::move(fit);
+      return;
+    }
+    result_.fits.push_back(std::move(fit));
   }
 
   void follow(const std::vector<SearchStart>& candidates, double from, double to,
               const std::string& what, bool anew = true) {
     std::vector<Fit> fits(candidates.size());
-    std::atomic<int> done{0};
-    for_each_task(static_cast<int>(candidates.size()), options_.threads, [&](int i) {
+    run_all(candidates.size(), from, to, what, [&](std::size_t i) {
       fits[i] = anew ? follow_one(candidates[i])
                      : fitter_.fit(candidates[i].effects, candidates[i].x, options_.iterations,
                                    fitter_.weights());
       fitter_.judge(fits[i]);
-      const double share = ++done / static_cast<double>(candidates.size());
-      if (std::this_thread::get_id() == caller_) say(from + (to - from) * share, what);
     });
-    // Of each hypothesis the best fit stays.
-    for (Fit& fit : fits) {
-      Fit* known = nullptr;
-      for (Fit& other : result_.fits) {
-        if (other.effects == fit.effects) known = &other;
-      }
-      if (!known) {
-        result_.fits.push_back(std::move(fit));
-      } else if (fit.objective < known->objective) {
-        *known = std::move(fit);
-      }
-    }
+    for (Fit& fit : fits) keep(std::move(fit));
   }
 
   /// A hypothesis holds the nominal model, and a pair each of its members: one that comes out worse
@@ -125,10 +155,10 @@ class Search {
   /// The best of all hand what they found, of the setup and of the effects that they share, to
   /// their rivals, which may have been stuck.
   void fit_crosswise() {
-    say(0.7, "from one another");
+    say(0.74, "from one another");
     constexpr std::size_t kDonors = 2;
     std::vector<Fit> best = ranked();
-    best.resize(std::min<std::size_t>(best.size(), options_.contenders));
+    best.resize(std::min(best.size(), kTakers));
     // The nominal model among them always: what it can do by itself is no missing physics.
     best.push_back(result_.fits[0]);
     std::vector<SearchStart> again;
@@ -148,7 +178,7 @@ class Search {
                          true});
       }
     }
-    follow(again, 0.7, 0.78, "from one another", false);
+    follow(again, 0.74, 0.8, "from one another", false);
   }
 
   /// The candidate at the size, of some, that leaves least: a linear step may go too far. The other
@@ -236,7 +266,7 @@ class Search {
       c.weights = &rough_weights_;
       singles.push_back(std::move(c));
     }
-    follow(most_promising(singles, options_.follow_singles), 0.1, 0.42, "one effect");
+    follow(most_promising(singles, options_.follow_singles), 0.1, 0.4, "one effect");
   }
 
   /// What may do the work of the best single effect: the others beside the setup that it found, its
@@ -252,13 +282,16 @@ class Search {
     base.x = best.x.head(Layout(fitter_.model(), {}).setup_count());
     base.squares = fitter_.squares(base);
     const auto weights = fitter_.roomy_weights(base.squares, 0.3);
-    const double work =
-        fitter_.objective({}, base.x, weights) - fitter_.objective(best.effects, best.x, weights);
     std::vector<SearchStart> starts = look_beside(base, 1, weights);
+    double own = 0;
+    for (const SearchStart& c : starts) own = c.effects == best.effects ? c.gain : own;
     std::erase_if(starts, [&](const SearchStart& c) {
-      return c.effects == best.effects || !listed(c.effects) || c.gain < kImitates * work;
+      return c.effects == best.effects || !listed(c.effects) || c.gain < kImitates * own;
     });
-    follow(starts, 0.42, 0.5, "imitations");
+    std::stable_sort(starts.begin(), starts.end(),
+                     [](const SearchStart& a, const SearchStart& b) { return a.gain > b.gain; });
+    if (starts.size() > kImitations) starts.resize(kImitations);
+    follow(starts, 0.46, 0.5, "imitations");
   }
 
   /// After a rough fit of each: of several starts of one hypothesis those that are not behind its
@@ -312,7 +345,7 @@ class Search {
     if (static_cast<int>(pairs.size()) > options_.pair_fits) pairs.resize(options_.pair_fits);
     for (SearchStart& pair : pairs) put_in_order(pair);
     pairs = most_promising(std::move(pairs), options_.follow_pairs);
-    follow(pairs, 0.55, 0.7, "pairs");
+    follow(pairs, 0.55, 0.68, "pairs");
   }
 
   /// Effects of a pair in the order of their names, as in the catalogue, so that both ways round
@@ -363,7 +396,7 @@ class Search {
       if (!contends) others.push_back(fit);
     }
     result_.fits.clear();
-    follow(again, 0.8, 0.98, "contenders", false);
+    follow(again, 0.8, 0.95, "contenders", false);
     for_each_task(static_cast<int>(others.size()), options_.threads,
                   [&](int i) { fitter_.judge(others[i]); });
     for (Fit& fit : others) result_.fits.push_back(std::move(fit));

@@ -16,8 +16,8 @@ struct SearchOptions {
   /// Starts of each effect that are fitted, beside the nominal fit and beside the setup as stated.
   int fits_of_single = 2;
   int rough_iterations = 3;  // of each start, to choose those that are followed; 0: all are
-  int follow_singles = 16, follow_pairs = 10;  // hypotheses that are followed to the end
-  int pair_fits = 20;                          // pairs that are fitted
+  int follow_singles = 12, follow_pairs = 8;  // hypotheses that are followed to the end
+  int pair_fits = 20;                         // pairs that are fitted
   int iterations = 10;
   int pair_bases = 4;   // single effects that others are tried beside
   int contenders = 16;  // fitted anew with the noise as the best of them leaves it
