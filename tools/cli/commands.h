@@ -20,6 +20,7 @@ void add_log_command(CLI::App& app, Invocation& invocation);
 void add_order_command(CLI::App& app, Invocation& invocation);  // hoof command
 void add_param_command(CLI::App& app, Invocation& invocation);
 void add_replay_command(CLI::App& app, Invocation& invocation);
+void add_reproduce_command(CLI::App& app, Invocation& invocation);
 void add_report_command(CLI::App& app, Invocation& invocation);
 void add_simulate_command(CLI::App& app, Invocation& invocation);
 void add_sinkage_command(CLI::App& app, Invocation& invocation);

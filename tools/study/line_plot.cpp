@@ -45,7 +45,11 @@ class Plot {
  public:
   explicit Plot(const std::vector<PlotLine>& lines) {
     for (const PlotLine& line : lines) {
-      for (const auto& [x, y] : line.points) x_.cover(x), y_.cover(y);
+      for (std::size_t i = 0; i < line.points.size(); ++i) {
+        const auto& [x, y] = line.points[i];
+        const double bar = i < line.half_range.size() ? line.half_range[i] : 0;
+        x_.cover(x), y_.cover(y - bar), y_.cover(y + bar);
+      }
     }
     if (x_.high == x_.low) x_.high = x_.low + 1;
     if (y_.high == y_.low) y_.high = y_.low + 1;
@@ -72,8 +76,16 @@ class Plot {
     for (const auto& [px, py] : line.points) {
       if (std::isfinite(px) && std::isfinite(py)) append(svg, "%.1f,%.1f ", x(px), y(py));
     }
+    svg += "\"/>\n";
+    for (std::size_t i = 0; i < std::min(line.half_range.size(), line.points.size()); ++i) {
+      const auto& [px, py] = line.points[i];
+      if (!std::isfinite(px) || !std::isfinite(py)) continue;
+      append(svg, "<path d=\"M%.1f %.1fV%.1f\" stroke=\"%s\"/>", x(px), y(py - line.half_range[i]),
+             y(py + line.half_range[i]), colour);
+      append(svg, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3\" fill=\"%s\"/>\n", x(px), y(py), colour);
+    }
     const double at_y = kTop + 8 + 16 * double(index);
-    append(svg, "\"/>\n<path d=\"M%.1f %.1fh24\" stroke=\"%s\"%s stroke-width=\"2\"/>",
+    append(svg, "<path d=\"M%.1f %.1fh24\" stroke=\"%s\"%s stroke-width=\"2\"/>",
            kWidth - kRight + 12, at_y, colour, dash);
     append(svg, "<text x=\"%.1f\" y=\"%.1f\">", kWidth - kRight + 42, at_y + 4);
     svg += html_escape(line.label) + "</text>\n";

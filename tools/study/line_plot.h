@@ -12,6 +12,7 @@ struct PlotLine {
   std::vector<std::pair<double, double>> points;
   int colour = 0;  // lines of one group share it
   bool dashed = false;
+  std::vector<double> half_range = {};  // of a bar at each point, in y; empty: no bars
 };
 
 /// @param x_label, y_label with their units

@@ -1,0 +1,82 @@
+#include "tools/reproduce/cell.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "tools/experiment/run_settings.h"
+#include "tools/reproduce/campaign.h"
+#include "tools/reproduce/paper.h"
+
+using namespace hoof::tools;
+
+namespace {
+
+std::set<Part> all_parts() {
+  std::set<Part> parts;
+  for (const auto& [name, part] : part_names()) parts.insert(part);
+  return parts;
+}
+
+}  // namespace
+
+TEST_CASE("plan: each run once, bed after bed, and every number of the paper has one") {
+  for (const Design design : {Design::kNight, Design::kFull}) {
+    const std::vector<Cell> cells = plan_cells(all_parts(), design, 3, 7);
+    std::set<std::string> ids, conditions;
+    for (const Cell& cell : cells) {
+      CHECK(ids.insert(cell.id()).second);
+      conditions.insert(cell.condition());
+    }
+    CHECK(cells.size() == 3 * conditions.size());
+    CHECK(std::is_sorted(cells.begin(), cells.end(),
+                         [](const Cell& a, const Cell& b) { return a.bed < b.bed; }));
+    CHECK(cells.front().bed == 7);
+    CHECK(cells.back().bed == 9);
+    for (const PaperSinkage& row : paper_sinkages()) CHECK(conditions.count(row.condition) == 1);
+    for (const PaperTraction& row : paper_tractions()) CHECK(conditions.count(row.condition) == 1);
+  }
+  // 3 feet x 2 loads x 2 speeds, 5 openings x 2 x 2 less two that are there, 3 feet x 2 steps,
+  // 5 openings x 2 less two.
+  CHECK(plan_cells(all_parts(), Design::kNight, 1, 1).size() == 12 + 18 + 6 + 8);
+  // 3 x 6 x 2, 5 x 6 x 2 less the closed ones that are there.
+  CHECK(plan_cells(all_parts(), Design::kFull, 1, 1).size() == 36 + 48 + 6 + 8);
+}
+
+TEST_CASE("plan: a cell is what its name says") {
+  const auto cells = plan_cells({Part::kOpening, Part::kTraction}, Design::kNight, 1, 4);
+  const auto of = [&](const std::string& id) {
+    const auto found =
+        std::find_if(cells.begin(), cells.end(), [&](const Cell& cell) { return cell.id() == id; });
+    REQUIRE(found != cells.end());
+    return read_run_settings(found->kind(), found->overrides());
+  };
+  const RunSettings open = of("sinkage-bionic-toe30-60kg-0.4m_s-bed4");
+  CHECK(open.is_sinkage());
+  CHECK(open.foot_name == "bionic");
+  CHECK(open.sinkage.toe_rad == Approx(30 * 3.14159265358979 / 180));
+  CHECK(open.sinkage.load_N == Approx(60 * 9.81).epsilon(1e-3));
+  CHECK(open.sinkage.speed_m_s == 0.4);
+  CHECK(open.seed == 4);
+  const RunSettings sole = of("traction-traditional-1.12Hz-bed4");
+  CHECK_FALSE(sole.is_sinkage());
+  CHECK(sole.foot_name == "traditional");
+  CHECK(sole.traction.frequency_Hz == 1.12);
+}
+
+TEST_CASE("a campaign's hashes: threads change nothing, a setting does, a foot is its geometry") {
+  const auto hash = [](std::vector<std::string> more) {
+    return settings_hash(read_run_settings("sinkage", more).tree);
+  };
+  const std::string plain = hash({});
+  CHECK(plain.size() == 64);
+  CHECK(hash({"experiment.threads=7"}) == plain);
+  CHECK(hash({"experiment.seed=2"}) != plain);
+  CHECK(hash({"bed.depth_mm=110"}) != plain);
+  const auto geometry = [](std::vector<std::string> more) {
+    return geometry_hash(read_run_settings("sinkage", more).tree);
+  };
+  CHECK(geometry({"experiment.seed=2"}) == geometry({}));
+  CHECK(geometry({"use.foot=traditional"}) != geometry({}));
+  CHECK(geometry({"foot.spines.length_mm=9"}) != geometry({}));
+}

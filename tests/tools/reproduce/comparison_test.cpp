@@ -1,0 +1,129 @@
+#include "tools/reproduce/comparison.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "tools/reproduce/paper.h"
+
+using namespace hoof::tools;
+
+namespace {
+
+/// Runs that came out as the paper's, on some beds, each bed softer or harder by a factor.
+Outcomes like_paper(const std::vector<double>& beds = {1}) {
+  Outcomes outcomes;
+  for (std::size_t i = 0; i < beds.size(); ++i) {
+    const int bed = int(i) + 1;
+    for (const PaperSinkage& row : paper_sinkages()) {
+      outcomes[row.condition][bed].sinkage_mm = beds[i] * row.sinkage_mm;
+    }
+    for (const PaperTraction& row : paper_tractions()) {
+      Outcome& o = outcomes[row.condition][bed];
+      o.fx_peak_N = beds[i] * row.fx_peak_N, o.fz_at_fx_peak_N = beds[i] * row.fz_at_fx_peak_N;
+      o.coefficient = row.coefficient;
+    }
+  }
+  return outcomes;
+}
+
+const Comparison& named(const std::vector<Comparison>& rows, const std::string& name) {
+  for (const Comparison& row : rows) {
+    if (row.name == name) return row;
+  }
+  throw std::runtime_error("no target " + name);
+}
+
+}  // namespace
+
+TEST_CASE("the paper's numbers agree with the percentages that it states of them") {
+  const auto mm = [](const std::string& condition) {
+    for (const PaperSinkage& row : paper_sinkages()) {
+      if (row.condition == condition) return row.sinkage_mm;
+    }
+    throw std::runtime_error(condition);
+  };
+  const auto less = [&](const std::string& a, const std::string& b) {
+    return 100 * (1 - mm("sinkage-" + a) / mm("sinkage-" + b));
+  };
+  // Two decimals are stated.
+  CHECK(less("bionic-toe0-10kg-0.1m_s", "traditional-10kg-0.1m_s") == Approx(69.01).margin(0.006));
+  CHECK(less("bionic-toe0-10kg-0.4m_s", "traditional-10kg-0.4m_s") == Approx(60.26).margin(0.006));
+  CHECK(less("bionic-toe0-40kg-0.1m_s", "traditional-40kg-0.1m_s") == Approx(70.11).margin(0.006));
+  CHECK(less("bionic-toe0-40kg-0.4m_s", "traditional-40kg-0.4m_s") == Approx(67.47).margin(0.006));
+  CHECK(less("bionic-toe0-40kg-0.4m_s", "bionic-plain-toe0-40kg-0.4m_s") ==
+        Approx(15.18).margin(0.006));
+  CHECK(less("bionic-toe30-60kg-0.1m_s", "bionic-toe0-60kg-0.1m_s") == Approx(13.46).margin(0.006));
+  CHECK(less("bionic-toe40-60kg-0.4m_s", "bionic-toe0-60kg-0.4m_s") == Approx(8.55).margin(0.006));
+  for (const PaperTraction& row : paper_tractions()) {
+    if (row.fx_peak_N <= 0) continue;
+    // Three digits are stated.
+    CHECK(row.fx_peak_N / row.fz_at_fx_peak_N == Approx(row.coefficient).margin(0.0006));
+  }
+}
+
+TEST_CASE("runs that come out as the paper's are inside every band") {
+  const auto rows = compare_with_paper(like_paper());
+  CHECK(rows.size() > 60);
+  for (const Comparison& row : rows) {
+    INFO(row.name);
+    REQUIRE(row.ours);
+    CHECK(row.ours->mean == Approx(row.paper));
+    CHECK(row.judgement() == (row.high > 0 ? Judgement::kInside : Judgement::kNoBand));
+    CHECK(std::isfinite(row.paper));
+  }
+  CHECK(named(rows, "sinkage, spined over traditional, 40kg, 0.1 m/s").paper ==
+        Approx(0.2989).margin(1e-4));
+  CHECK(named(rows, "exponent of load over sinkage, traditional").paper ==
+        Approx(1.035).margin(1e-3));
+  CHECK(named(rows, "traction coefficient, spined over plain, 0.45Hz").paper ==
+        Approx(1.476).margin(1e-3));
+  CHECK(named(rows, "Fx, spined over traditional, 1.12Hz").paper == Approx(2.73).margin(5e-3));
+  CHECK(named(rows, "Fz, spined over plain, 0.45Hz").paper == Approx(0.68).margin(5e-3));
+}
+
+TEST_CASE("what was not run is said, and what came out otherwise is outside, on both sides") {
+  Outcomes outcomes = like_paper();
+  outcomes.erase("sinkage-traditional-10kg-0.1m_s");
+  const std::string forty = "sinkage, spined over plain, 40kg, 0.1 m/s";
+  for (const double factor : {0.7, 1.3}) {
+    outcomes["sinkage-bionic-toe0-40kg-0.1m_s"][1].sinkage_mm = factor * 9.5;
+    const auto rows = compare_with_paper(outcomes);
+    CHECK(named(rows, forty).judgement() == Judgement::kOutside);
+    CHECK(named(rows, forty).note ==
+          (factor < 1 ? "below 1 in 1 of 1 beds" : "below 1 in 0 of 1 beds"));
+    CHECK(named(rows, "sinkage, spined over traditional, 10kg, 0.1 m/s").judgement() ==
+          Judgement::kNotRun);
+    CHECK(named(rows, "exponent of load over sinkage, traditional").judgement() ==
+          Judgement::kNotRun);
+    CHECK(named(rows, "sinkage, spined over traditional, 10kg, 0.4 m/s").judgement() ==
+          Judgement::kInside);
+  }
+}
+
+TEST_CASE("ratios are of two runs on one bed: beds that differ do not scatter them") {
+  const auto rows = compare_with_paper(like_paper({0.7, 1, 1.4}));
+  const Comparison& ratio = named(rows, "sinkage, spined over traditional, 40kg, 0.4 m/s");
+  CHECK(ratio.ours->n == 3);
+  CHECK(ratio.ours->mean == Approx(ratio.paper));
+  CHECK(ratio.ours->deviation == Approx(0).margin(1e-12));
+  // The depths themselves do.
+  CHECK(named(rows, "sinkage-traditional-40kg-0.4m_s").ours->deviation > 5);
+
+  // A bed that one of the two has not is left out.
+  Outcomes outcomes = like_paper({1, 1});
+  outcomes["sinkage-traditional-40kg-0.4m_s"].erase(2);
+  outcomes["sinkage-bionic-toe0-40kg-0.4m_s"][2].sinkage_mm = 100;
+  const auto fewer = compare_with_paper(outcomes);
+  CHECK(named(fewer, "sinkage, spined over traditional, 40kg, 0.4 m/s").ours->n == 1);
+  CHECK(named(fewer, "sinkage, spined over traditional, 40kg, 0.4 m/s").ours->mean ==
+        Approx(ratio.paper));
+}
+
+TEST_CASE("targets that the geometry was chosen by are no predictions") {
+  int inputs = 0;
+  for (const Comparison& row : compare_with_paper({})) {
+    CHECK(row.judgement() == Judgement::kNotRun);
+    inputs += row.standing == Standing::kInput ? 1 : 0;
+  }
+  CHECK(inputs == 5);
+}

@@ -1,0 +1,50 @@
+// One run of the paper's campaign, and the plans that such runs make.
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace hoof::tools {
+
+/// A sinkage or a traction run on one bed.
+struct Cell {
+  bool traction = false;
+  std::string foot;         // as of --foot
+  int toe_deg = 0;          // per side; 0 of a foot without toes
+  double load_kg = 0;       // of a sinkage
+  double speed_m_s = 0;     // of a sinkage, at first contact
+  double frequency_Hz = 0;  // of a traction
+  int bed = 1;              // the seed of its preparation
+
+  std::string kind() const { return traction ? "traction" : "sinkage"; }
+  /// All but the bed, in a word that names a folder: "sinkage-bionic-toe30-10kg-0.1m_s".
+  std::string condition() const;
+  /// "sinkage-bionic-toe30-10kg-0.1m_s-bed1"
+  std::string id() const { return condition() + "-bed" + std::to_string(bed); }
+  /// "dotted.key=value", what the run is beside the defaults of its experiment.
+  std::vector<std::string> overrides() const;
+};
+
+/// What of the paper is reproduced.
+enum class Part {
+  kLoad,            // sinkage of the three feet against load, at both speeds
+  kOpening,         // sinkage of the spined foot against the opening, light and heavy
+  kTraction,        // the three feet at both step frequencies
+  kTractionOpening  // the spined foot against the opening, at both
+};
+
+/// By the names of the command line: load, opening, traction, traction-opening.
+const std::vector<std::pair<std::string, Part>>& part_names();
+
+enum class Design {
+  kNight,  // the conditions that the paper states numbers of
+  kFull    // every load from 10 to 60 kg and every opening from 0 to 40 degrees, at all loads
+};
+
+/// All cells, each once, bed after bed: whenever a campaign stops, the beds that are through are
+/// complete pairs.
+/// @param beds how many  @param first_bed the seed of the first, the others count on
+std::vector<Cell> plan_cells(const std::set<Part>& parts, Design design, int beds, int first_bed);
+
+}  // namespace hoof::tools

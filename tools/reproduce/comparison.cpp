@@ -1,0 +1,319 @@
+#include "tools/reproduce/comparison.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "tools/reproduce/paper.h"
+#include "tools/run/csv_writer.h"
+
+namespace hoof::tools {
+namespace {
+
+using Value = std::function<double(const Outcome&)>;
+
+double sinkage(const Outcome& o) {
+  return o.sinkage_mm;
+}
+double coefficient(const Outcome& o) {
+  return o.coefficient;
+}
+double fx(const Outcome& o) {
+  return o.fx_peak_N;
+}
+double fz(const Outcome& o) {
+  return o.fz_at_fx_peak_N;
+}
+
+std::string at(const std::string& foot, const std::string& load, const std::string& speed) {
+  return "sinkage-" + foot + "-" + load + "-" + speed + "m_s";
+}
+
+const std::string kSpined = "bionic-toe0", kPlain = "bionic-plain-toe0", kSole = "traditional";
+
+double paper_sinkage_mm(const std::string& condition) {
+  for (const PaperSinkage& row : paper_sinkages()) {
+    if (row.condition == condition) return row.sinkage_mm;
+  }
+  return NAN;
+}
+
+const PaperTraction& paper_traction(const std::string& condition) {
+  static const PaperTraction none;
+  for (const PaperTraction& row : paper_tractions()) {
+    if (row.condition == condition) return row;
+  }
+  return none;
+}
+
+class Table {
+ public:
+  explicit Table(const Outcomes& outcomes) : outcomes_(outcomes) {}
+
+  std::vector<Comparison> rows;
+
+  const std::map<int, Outcome>* of(const std::string& condition) const {
+    const auto found = outcomes_.find(condition);
+    return found == outcomes_.end() || found->second.empty() ? nullptr : &found->second;
+  }
+
+  /// Of one condition.
+  std::optional<Sample> plain(const std::string& condition, const Value& value) const {
+    return over_beds({condition}, [&](const std::vector<Outcome>& o) { return value(o[0]); });
+  }
+
+  /// Of the beds that have all conditions.
+  std::optional<Sample> over_beds(
+      const std::vector<std::string>& conditions,
+      const std::function<double(const std::vector<Outcome>&)>& value) const {
+    std::vector<double> values;
+    const auto* first = of(conditions[0]);
+    if (!first) return {};
+    for (const auto& [bed, outcome] : *first) {
+      std::vector<Outcome> all;
+      for (const std::string& condition : conditions) {
+        const auto* runs = of(condition);
+        const auto run = runs ? runs->find(bed) : first->end();
+        if (!runs || run == runs->end()) break;
+        all.push_back(run->second);
+      }
+      if (all.size() == conditions.size()) values.push_back(value(all));
+    }
+    const Sample sample = sample_of(values);
+    if (sample.n == 0) return {};
+    return sample;
+  }
+
+  std::optional<Sample> ratio(const std::string& above, const std::string& below,
+                              const Value& value) const {
+    return over_beds({above, below}, [&](const std::vector<Outcome>& o) {
+      const double divisor = value(o[1]);
+      return divisor != 0 ? value(o[0]) / divisor : NAN;
+    });
+  }
+
+ private:
+  const Outcomes& outcomes_;
+};
+
+void sinkage_ratios(Table& table) {
+  for (const char* load : {"10kg", "40kg"}) {
+    for (const char* speed : {"0.1", "0.4"}) {
+      const std::string spined = at(kSpined, load, speed), sole = at(kSole, load, speed);
+      table.rows.push_back(
+          {std::string("sinkage, spined over traditional, ") + load + ", " + speed + " m/s", "1",
+           paper_sinkage_mm(spined) / paper_sinkage_mm(sole), 0.25, 0.50, Standing::kInput,
+           table.ratio(spined, sole, sinkage),
+           "the soles' areas were chosen by the paper's stiffness ratio"});
+    }
+  }
+  for (const char* load : {"10kg", "40kg"}) {
+    for (const char* speed : {"0.1", "0.4"}) {
+      const std::string spined = at(kSpined, load, speed), plain = at(kPlain, load, speed);
+      Comparison row = {std::string("sinkage, spined over plain, ") + load + ", " + speed + " m/s",
+                        "1",
+                        paper_sinkage_mm(spined) / paper_sinkage_mm(plain),
+                        0.80,
+                        0.95,
+                        Standing::kPrediction,
+                        table.ratio(spined, plain, sinkage)};
+      if (row.ours) {
+        const std::size_t below = row.ours->n - row.ours->above_one;
+        row.note =
+            "below 1 in " + std::to_string(below) + " of " + std::to_string(row.ours->n) + " beds";
+      }
+      table.rows.push_back(row);
+    }
+  }
+}
+
+/// F ~ z^n between 10 and 40 kg.
+void exponents(Table& table) {
+  for (const auto& [foot, name] :
+       {std::pair{kSole, "traditional"}, {kPlain, "plain"}, {kSpined, "spined"}}) {
+    const std::string light = at(foot, "10kg", "0.1"), heavy = at(foot, "40kg", "0.1");
+    const auto exponent = [](double less, double more) {
+      return more > less && less > 0 ? std::log(4.0) / std::log(more / less) : NAN;
+    };
+    table.rows.push_back({std::string("exponent of load over sinkage, ") + name, "1",
+                          exponent(paper_sinkage_mm(light), paper_sinkage_mm(heavy)), 0.9, 1.3,
+                          Standing::kPrediction,
+                          table.over_beds({light, heavy}, [&](const auto& o) {
+                            return exponent(o[0].sinkage_mm, o[1].sinkage_mm);
+                          })});
+  }
+}
+
+void speeds(Table& table) {
+  for (const auto& [foot, name] :
+       {std::pair{kSole, "traditional"}, {kPlain, "plain"}, {kSpined, "spined"}}) {
+    for (const char* load : {"10kg", "40kg"}) {
+      const std::string fast = at(foot, load, "0.4"), slow = at(foot, load, "0.1");
+      table.rows.push_back({std::string("sinkage at 0.4 over 0.1 m/s, ") + name + ", " + load, "1",
+                            paper_sinkage_mm(fast) / paper_sinkage_mm(slow), 1.0, 1.6,
+                            Standing::kPrediction, table.ratio(fast, slow, sinkage)});
+    }
+  }
+}
+
+void openings(Table& table) {
+  for (const char* speed : {"0.1", "0.4"}) {
+    const std::string shut = at("bionic-toe0", "60kg", speed);
+    const std::string open = at("bionic-toe30", "60kg", speed);
+    table.rows.push_back(
+        {std::string("less sinkage by 30 degrees, 60 kg, ") + speed + " m/s", "1",
+         1 - paper_sinkage_mm(open) / paper_sinkage_mm(shut), 0.05, 0.20, Standing::kPrediction,
+         table.over_beds({shut, open}, [](const std::vector<Outcome>& o) {
+           return o[0].sinkage_mm > 0 ? 1 - o[1].sinkage_mm / o[0].sinkage_mm : NAN;
+         })});
+  }
+}
+
+void traction_ratios(Table& table) {
+  const std::vector<std::string> steps = {"0.45Hz", "1.12Hz"};
+  const auto named = [](const std::string& foot, const std::string& step) {
+    return "traction-" + foot + "-" + step;
+  };
+  struct Pair {
+    const char* name;
+    std::string above, below;
+    double low, high;
+    const Value value;
+    double PaperTraction::*paper;
+  };
+  const Pair pairs[] = {
+      {"traction coefficient, spined over plain", kSpined, kPlain, 1.2, 1.8, coefficient,
+       &PaperTraction::coefficient},
+      {"traction coefficient, spined over traditional", kSpined, kSole, 1.15, 1.6, coefficient,
+       &PaperTraction::coefficient},
+      {"Fx, spined over traditional", kSpined, kSole, 0, 0, fx, &PaperTraction::fx_peak_N},
+      {"Fz, spined over traditional", kSpined, kSole, 0, 0, fz, &PaperTraction::fz_at_fx_peak_N},
+      {"Fz, spined over plain", kSpined, kPlain, 0, 0, fz, &PaperTraction::fz_at_fx_peak_N},
+      {"Fx, spined over plain", kSpined, kPlain, 0, 0, fx, &PaperTraction::fx_peak_N}};
+  for (const Pair& pair : pairs) {
+    for (const std::string& step : steps) {
+      const std::string above = named(pair.above, step), below = named(pair.below, step);
+      table.rows.push_back({std::string(pair.name) + ", " + step, "1",
+                            paper_traction(above).*pair.paper / (paper_traction(below).*pair.paper),
+                            pair.low, pair.high,
+                            pair.high > 0 ? Standing::kPrediction : Standing::kShown,
+                            table.ratio(above, below, pair.value)});
+    }
+  }
+  for (const auto& [foot, name] :
+       {std::pair{kSpined, "spined"}, {kPlain, "plain"}, {kSole, "traditional"}}) {
+    const std::string fast = named(foot, "1.12Hz"), slow = named(foot, "0.45Hz");
+    table.rows.push_back(
+        {std::string("Fz at 1.12 over 0.45 Hz, ") + name, "1",
+         paper_traction(fast).fz_at_fx_peak_N / paper_traction(slow).fz_at_fx_peak_N, 1.2, 2.1,
+         Standing::kPrediction, table.ratio(fast, slow, fz)});
+  }
+}
+
+void traction_levels(Table& table) {
+  for (const char* step : {"0.45Hz", "1.12Hz"}) {
+    for (const auto& [foot, name, low, high] :
+         {std::tuple{kSpined, "spined", 0.55, 0.75}, {kPlain, "plain", 0.35, 0.50}}) {
+      const std::string condition = "traction-" + foot + "-" + step;
+      table.rows.push_back({std::string("traction coefficient, ") + name + ", " + step, "1",
+                            paper_traction(condition).coefficient, low, high, Standing::kPrediction,
+                            table.plain(condition, coefficient)});
+    }
+  }
+  // Nearly flat: the range over the openings, by the mean.
+  for (const char* step : {"0.45Hz", "1.12Hz"}) {
+    std::vector<std::string> conditions;
+    double least = 1e9, most = 0, sum = 0;
+    for (const int toe : {0, 10, 20, 30, 40}) {
+      conditions.push_back("traction-bionic-toe" + std::to_string(toe) + "-" + step);
+      const double value = paper_traction(conditions.back()).coefficient;
+      least = std::min(least, value), most = std::max(most, value), sum += value;
+    }
+    table.rows.push_back(
+        {std::string("traction coefficient, range over openings by its mean, ") + step, "1",
+         (most - least) / (sum / 5), 0, 0.10, Standing::kPrediction,
+         table.over_beds(conditions, [](const std::vector<Outcome>& o) {
+           double low = 1e9, high = 0, total = 0;
+           for (const Outcome& run : o) {
+             low = std::min(low, run.coefficient);
+             high = std::max(high, run.coefficient);
+             total += run.coefficient;
+           }
+           return total > 0 ? (high - low) * double(o.size()) / total : NAN;
+         })});
+  }
+}
+
+/// Absolute numbers: a factor of two, as the widths of soles and spines are not given.
+void absolutes(Table& table) {
+  for (const PaperSinkage& row : paper_sinkages()) {
+    const bool chosen_by = row.condition == at(kSole, "40kg", "0.1");
+    Comparison c = {row.condition,
+                    "mm",
+                    row.sinkage_mm,
+                    0.5 * row.sinkage_mm,
+                    2 * row.sinkage_mm,
+                    chosen_by ? Standing::kInput : Standing::kPrediction,
+                    table.plain(row.condition, sinkage)};
+    if (!row.in_words) c.note = "the paper's from a percentage";
+    if (chosen_by) c.note = "the sole's width was chosen by it";
+    table.rows.push_back(c);
+  }
+  for (const PaperTraction& row : paper_tractions()) {
+    if (row.fx_peak_N <= 0) continue;
+    table.rows.push_back({row.condition + ", Fx peak", "N", row.fx_peak_N, 0.5 * row.fx_peak_N,
+                          2 * row.fx_peak_N, Standing::kPrediction,
+                          table.plain(row.condition, fx)});
+    table.rows.push_back({row.condition + ", Fz then", "N", row.fz_at_fx_peak_N,
+                          0.5 * row.fz_at_fx_peak_N, 2 * row.fz_at_fx_peak_N, Standing::kPrediction,
+                          table.plain(row.condition, fz)});
+  }
+}
+
+}  // namespace
+
+Judgement Comparison::judgement() const {
+  if (!ours) return Judgement::kNotRun;
+  if (low == 0 && high == 0) return Judgement::kNoBand;
+  return ours->mean >= low && ours->mean <= high ? Judgement::kInside : Judgement::kOutside;
+}
+
+std::string to_string(Judgement judgement) {
+  switch (judgement) {
+    case Judgement::kInside:
+      return "inside";
+    case Judgement::kOutside:
+      return "outside";
+    case Judgement::kNotRun:
+      return "not run";
+    case Judgement::kNoBand:
+      return "no band";
+  }
+  return "";
+}
+
+std::string to_string(Standing standing) {
+  switch (standing) {
+    case Standing::kPrediction:
+      return "prediction";
+    case Standing::kInput:
+      return "input";
+    case Standing::kShown:
+      return "shown";
+  }
+  return "";
+}
+
+std::vector<Comparison> compare_with_paper(const Outcomes& outcomes) {
+  Table table(outcomes);
+  sinkage_ratios(table);
+  exponents(table);
+  speeds(table);
+  openings(table);
+  traction_ratios(table);
+  traction_levels(table);
+  absolutes(table);
+  return table.rows;
+}
+
+}  // namespace hoof::tools

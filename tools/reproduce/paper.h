@@ -1,0 +1,26 @@
+// What the paper states of sinkage and traction: Ji, Han, Xie, Han, Wang, Zhang: Actuators 2026,
+// 15(6), 330. Numbers, no figures: openings of 20 degrees and loads between those here are drawn in
+// it and not said.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace hoof::tools {
+
+struct PaperSinkage {
+  std::string condition;  // as of Cell
+  double sinkage_mm = 0;  // largest vertical displacement of the sole after contact
+  bool in_words = true;   // else from a percentage that it states
+};
+const std::vector<PaperSinkage>& paper_sinkages();
+
+struct PaperTraction {
+  std::string condition;
+  double fx_peak_N = 0;        // 0: not stated
+  double fz_at_fx_peak_N = 0;  // at that instant; the largest Fz is never given
+  double coefficient = 0;      // the one over the other
+};
+const std::vector<PaperTraction>& paper_tractions();
+
+}  // namespace hoof::tools

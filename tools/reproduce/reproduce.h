@@ -1,0 +1,33 @@
+// hoof reproduce: the paper's sinkage and traction, run by run, its numbers beside ours.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tools/reproduce/cell.h"
+
+namespace hoof::tools {
+
+struct ReproduceOptions {
+  std::set<Part> parts;  // empty: all
+  Design design = Design::kNight;
+  std::string scale = "demo";   // preset of the bed
+  std::string terrain = "dem";  // or "rft", "rigid": quick looks that are no sand
+  int beds = 5;
+  int first_bed = 1;
+  std::optional<int> threads;
+  std::vector<std::string> settings;  // "dotted.key=value" for every run
+  std::filesystem::path out;          // empty: runs/reproduce-SCALE
+  bool plan_only = false;             // says what is there and what is missing, runs nothing
+  bool quiet = false;
+};
+
+/// Runs what is missing; writes summary.csv, summary.json and report.html after each run, so that a
+/// campaign under way can be looked at; prints the table of targets.
+/// @throws UserError, Interrupted; CannotFinish where runs failed, named, once the rest is done
+void reproduce(const ReproduceOptions& options);
+
+}  // namespace hoof::tools

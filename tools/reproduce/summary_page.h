@@ -1,0 +1,18 @@
+// report.html of a campaign.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tools/reproduce/campaign.h"
+#include "tools/reproduce/comparison.h"
+#include "tools/reproduce/reproduce.h"
+
+namespace hoof::tools {
+
+/// One self-contained file: what was run, how many targets came out inside, figures with the
+/// paper's numbers beside ours, and the table.
+std::string summary_page(const Campaign& campaign, const ReproduceOptions& options,
+                         const std::vector<Comparison>& rows);
+
+}  // namespace hoof::tools
