@@ -19,7 +19,7 @@ namespace {
 std::vector<std::string> campaign(const fs::path& out, std::vector<std::string> more = {},
                                   const std::string& beds = "1") {
   std::vector<std::string> arguments = {"reproduce", "traction", "--terrain", "rigid",     "--beds",
-                                        "1",         "--quiet",  "--out",     out.string()};
+                                        beds,        "--quiet",  "--out",     out.string()};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
 }
