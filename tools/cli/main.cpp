@@ -60,6 +60,7 @@ int main(int argc, char** argv) {
   add_simulate_command(app, invocation);
   add_design_command(app, invocation);
   add_anova_command(app, invocation);
+  add_calibrate_command(app, invocation);
   add_conceal_command(app, invocation);
   add_version_command(app, invocation);
 
