@@ -29,11 +29,10 @@ void run_single_grain(const std::string& laboratory, const CalibrateOptions& opt
   ProgressLine line(laboratory, choose_progress_style(options.quiet), std::cerr);
   StopRequest stop;
   try {
-    const Findings findings =
-        find(materials, [&](double share, const std::string& doing) {
-          line.update(share, doing);
-          return !stop.requested();
-        });
+    const Findings findings = find(materials, [&](double share, const std::string& doing) {
+      line.update(share, doing);
+      return !stop.requested();
+    });
     line.update(1, "");
     line.finish();
     report(findings, materials, folder_of(options, laboratory));
@@ -80,11 +79,11 @@ void calibrate_repose(const CalibrateOptions& options, const ReposeSettings& set
   StopRequest stop;
   std::vector<HeapResult> results;
   try {
-    results = make_heaps(cases, folder / "heaps", threads,
-                         [&](double share, const std::string& doing) {
-                           line.update(share, doing);
-                           return !stop.requested();
-                         });
+    results =
+        make_heaps(cases, folder / "heaps", threads, [&](double share, const std::string& doing) {
+          line.update(share, doing);
+          return !stop.requested();
+        });
   } catch (const UserError&) {
     line.finish();
     throw;

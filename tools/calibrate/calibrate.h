@@ -17,8 +17,8 @@ struct CalibrateOptions {
 };
 
 // Each prints its findings and the path of report.html.
-// @throws UserError, sim::ConfigError, std::invalid_argument for what the user can mend; Interrupted
-// after Ctrl-C (nothing of a single-grain laboratory is kept: it takes seconds)
+// @throws UserError, sim::ConfigError, std::invalid_argument for what the user can mend;
+// Interrupted after Ctrl-C (nothing of a single-grain laboratory is kept: it takes seconds)
 void calibrate_restitution(const CalibrateOptions& options, const RestitutionSettings& settings);
 void calibrate_rolling(const CalibrateOptions& options, const RollingSettings& settings);
 void calibrate_sliding(const CalibrateOptions& options, const SlidingSettings& settings);

@@ -37,8 +37,7 @@ class Faller {
       rim_m_s_ = now.radius_m * now.w_rad_s.y();
     }
     if (now.p_m.z() <= landing_z_m_) {
-      const double share =
-          (last_.p_m.z() - landing_z_m_) / (last_.p_m.z() - now.p_m.z());
+      const double share = (last_.p_m.z() - landing_z_m_) / (last_.p_m.z() - now.p_m.z());
       travel_m_ = last_.p_m.x() + share * (now.p_m.x() - last_.p_m.x());
     }
     last_ = now;
@@ -64,8 +63,7 @@ class Faller {
     const double n = g.v_m_s.dot(plate_.normal);
     const double at_plate = sign * std::sqrt(n * n + 2 * pull_m_s2 * gap(g));
     const double later_s = (n - at_plate) / pull_m_s2;
-    return {at_plate,
-            g.v_m_s.dot(plate_.downhill) - kGravity_m_s2 * plate_.downhill.z() * later_s};
+    return {at_plate, g.v_m_s.dot(plate_.downhill) - kGravity_m_s2 * plate_.downhill.z() * later_s};
   }
 
   PlateFrame plate_;
@@ -103,17 +101,16 @@ DropOutcome drop(const sim::Materials& materials, const DropTest& test) {
   const PlateFrame plate(test.plate_rad);
   const auto starts = starts_of(test, plate);
   const double speed_m_s = std::sqrt(2 * kGravity_m_s2 * (test.height_m + 0.02));
-  const double longest_s = 2 * (speed_m_s + std::sqrt(speed_m_s * speed_m_s + 2 * kGravity_m_s2 *
-                                                          test.height_after_m)) /
-                           kGravity_m_s2;
+  const double longest_s =
+      2 * (speed_m_s + std::sqrt(speed_m_s * speed_m_s + 2 * kGravity_m_s2 * test.height_after_m)) /
+      kGravity_m_s2;
   const double deepest_m = 0.5 * kGravity_m_s2 * longest_s * longest_s + test.height_after_m;
   LaneBed bed(materials, starts, {test.plate_rad, kAbove_m, kBelow_m}, -deepest_m,
               2 * test.height_m + 0.05, 2 * speed_m_s * longest_s);
   std::vector<Faller> fallers;
   for (const sim::Grain& g : bed.grains()) fallers.emplace_back(plate, test.height_after_m, g);
   const auto all_landed = [&] {
-    return std::all_of(fallers.begin(), fallers.end(),
-                       [](const Faller& f) { return f.landed(); });
+    return std::all_of(fallers.begin(), fallers.end(), [](const Faller& f) { return f.landed(); });
   };
   const int looks = int(std::ceil(longest_s / (kStepsALook * kLabStep_s)));
   for (int i = 0; i < looks && !all_landed(); ++i) {
@@ -125,8 +122,8 @@ DropOutcome drop(const sim::Materials& materials, const DropTest& test) {
   for (const Faller& f : fallers) {
     if (!f.bounced() || !f.landed()) {
       throw std::runtime_error("drop: a grain stays on the plate (restitution " +
-                               std::to_string(materials.sand_abs.restitution.value) +
-                               ", plate " + std::to_string(test.plate_rad) + " rad)");
+                               std::to_string(materials.sand_abs.restitution.value) + ", plate " +
+                               std::to_string(test.plate_rad) + " rad)");
     }
     out.travel_m.push_back(f.travel_m());
     out.kept_normal += f.kept_normal() / double(fallers.size());

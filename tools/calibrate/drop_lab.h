@@ -12,8 +12,8 @@ struct DropTest {
   double height_m = 0.04042;        // fall of the centre from rest to the impact
   double height_after_m = 0.04042;  // from the centre at the impact down to where it lands
   double plate_rad = 0.7853981633974483;
-  int grains = 1;        // each falls alone; several have the sizes of the paper's grading
-  double spread_m = 0;   // places of release, along x: within +- this, evenly distributed
+  int grains = 1;          // each falls alone; several have the sizes of the paper's grading
+  double spread_m = 0;     // places of release, along x: within +- this, evenly distributed
   std::uint64_t seed = 1;  // of these places
 
   /// @throws std::invalid_argument naming the first broken rule, its value and bound

@@ -82,7 +82,8 @@ std::string page(const Findings& f) {
                      "td");
   }
   body += "</table>\n";
-  if (!f.lines.empty()) body += draw_lines(f.title, f.x_label, f.y_label, f.lines, PlotAxes::kTight);
+  if (!f.lines.empty())
+    body += draw_lines(f.title, f.x_label, f.y_label, f.lines, PlotAxes::kTight);
   if (!f.readings.empty()) {
     body += heading(capitalised(f.readings_of)) + "<table>\n" +
             html_row({"analysis", "value", "why"}, "th");
@@ -96,8 +97,9 @@ std::string page(const Findings& f) {
     for (const std::string& note : f.notes) body += element("li", note) + "\n";
     body += "</ul>\n";
   }
-  body += element("p", "Beside this page: result.json (the same for programs), runs.csv (every run).",
-                  " class=\"note\"");
+  body +=
+      element("p", "Beside this page: result.json (the same for programs), runs.csv (every run).",
+              " class=\"note\"");
   return make_page(f.title, body, R"({"time_s":[],"plots":[],"phases":[]})");
 }
 

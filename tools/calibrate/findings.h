@@ -15,9 +15,9 @@ namespace hoof::tools {
 
 /// A number that the source paper gives, or that must hold by physics, and what came out here.
 struct Target {
-  std::string name, unit;  // unit "" is 1
-  std::optional<double> paper;     // what the paper has
-  std::optional<double> low, high; // band that is accepted; neither: shown only
+  std::string name, unit;           // unit "" is 1
+  std::optional<double> paper;      // what the paper has
+  std::optional<double> low, high;  // band that is accepted; neither: shown only
   double ours = 0;
   int digits = 2;
 
@@ -28,8 +28,8 @@ struct Target {
 /// A coefficient (or a length) read off one measurement: by the paper's analysis and by others.
 struct Reading {
   std::string analysis;
-  double value = 0;   // NaN: this analysis gives none
-  std::string why;    // one sentence
+  double value = 0;  // NaN: this analysis gives none
+  std::string why;   // one sentence
 };
 
 struct Findings {

@@ -1,6 +1,7 @@
 // The angle of repose of a heap, by stated fits.
 //
-// The surface is the height of the highest grain over each point of a square grid of 1 mm. Two fits:
+// The surface is the height of the highest grain over each point of a square grid of 1 mm. Two
+// fits:
 //  - ring: least squares of z = z0 - r tan(angle) over all points with r from 25 % to 85 % of the
 //    dish's radius, r being the distance from the dish's axis. Tip (flattened by the stream that
 //    falls on it) and rim are left out.
@@ -19,8 +20,8 @@ namespace hoof::tools {
 struct HeapAngle {
   double ring_deg = 0;
   double outline_deg = 0;
-  double sides_deg = 0;    // standard deviation of the ring fit over eight eighths of the heap
-  double height_m = 0;     // of the highest point of the surface
+  double sides_deg = 0;  // standard deviation of the ring fit over eight eighths of the heap
+  double height_m = 0;   // of the highest point of the surface
   int grains_on_dish = 0;
 };
 

@@ -20,9 +20,9 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kShareOfSolids = 0.58;  // of a heap, for its size only
 constexpr double kConeAngle = 38 * kDegree;
-constexpr double kWall_m = 6e-3;       // of dish and funnel: thicker than any overlap
+constexpr double kWall_m = 6e-3;        // of dish and funnel: thicker than any overlap
 constexpr double kFloorBelow_m = 0.02;  // of the ground under the dish's floor
-constexpr double kPlace_m = 6.6e-3;    // of the lattice above the funnel: the largest grain fits
+constexpr double kPlace_m = 6.6e-3;     // of the lattice above the funnel: the largest grain fits
 constexpr double kPiece_s = 0.01;
 constexpr int kSegments = 48;
 // At rest: the mean kinetic energy of the heap's grains lifts none by a thousandth of its diameter,
@@ -45,8 +45,8 @@ double solids_m3(const std::vector<double>& diameters_m) {
 
 /// The funnel's inner radius at a height at or above the outlet.
 double funnel_radius_m(const HeapTest& t, const HeapGeometry& g, double z_m) {
-  return std::min(g.funnel_radius_m, 0.5 * t.outlet_m + (z_m - g.outlet_z_m) *
-                                                            std::tan(t.funnel_half_angle_rad));
+  return std::min(g.funnel_radius_m,
+                  0.5 * t.outlet_m + (z_m - g.outlet_z_m) * std::tan(t.funnel_half_angle_rad));
 }
 
 /// Free places in the funnel, from below: layers of a square lattice that keep clear of its wall.
@@ -88,8 +88,9 @@ sim::BedState hopper(const HeapTest& t, const HeapGeometry& g, std::vector<doubl
 
 sim::TriangleMesh dish(const HeapGeometry& g) {
   const double r = g.dish_radius_m, w = 0.5 * kWall_m;
-  return revolved({{0, -kWall_m}, {r + w, -kWall_m}, {r + w, g.rim_m}, {r, g.rim_m}, {r, 0}, {0, 0}},
-                  kSegments);
+  return revolved(
+      {{0, -kWall_m}, {r + w, -kWall_m}, {r + w, g.rim_m}, {r, g.rim_m}, {r, 0}, {0, 0}},
+      kSegments);
 }
 
 sim::TriangleMesh funnel(const HeapTest& t, const HeapGeometry& g) {
@@ -133,13 +134,13 @@ HeapGeometry heap_geometry(const HeapTest& t) {
   const sim::BedSettings bed = grading();
   const double solids = solids_m3(sim::graded_diameters(bed, std::size_t(t.grains)));
   HeapGeometry g;
-  g.dish_radius_m = std::cbrt(solids / t.overflow / kShareOfSolids * 3 / std::numbers::pi /
-                              std::tan(kConeAngle));
+  g.dish_radius_m =
+      std::cbrt(solids / t.overflow / kShareOfSolids * 3 / std::numbers::pi / std::tan(kConeAngle));
   g.rim_m = bed.d50_m();
   g.outlet_z_m = 1.25 * (g.rim_m + g.dish_radius_m * std::tan(40 * kDegree));
   g.funnel_radius_m = std::max(1.2 * g.dish_radius_m, t.outlet_m);
-  g.cone_top_z_m = g.outlet_z_m +
-                   (g.funnel_radius_m - 0.5 * t.outlet_m) / std::tan(t.funnel_half_angle_rad);
+  g.cone_top_z_m =
+      g.outlet_z_m + (g.funnel_radius_m - 0.5 * t.outlet_m) / std::tan(t.funnel_half_angle_rad);
   const double highest_m = places(t, g, std::size_t(t.grains)).back().z();
   g.funnel_top_z_m = std::max(g.cone_top_z_m, highest_m) + 2 * kPlace_m;
   return g;
@@ -237,8 +238,8 @@ std::string HeapMaking::snapshot() const {
 void HeapMaking::restore(std::string_view snapshot) {
   sim::ByteReader in(snapshot);
   in.get(share_poured_), in.get(quiet_pieces_), in.get(still_pieces_);
-  parts_->bed.restore(snapshot.substr(sizeof share_poured_ + sizeof quiet_pieces_ +
-                                      sizeof still_pieces_));
+  parts_->bed.restore(
+      snapshot.substr(sizeof share_poured_ + sizeof quiet_pieces_ + sizeof still_pieces_));
 }
 
 }  // namespace hoof::tools

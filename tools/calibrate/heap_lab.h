@@ -18,9 +18,9 @@
 namespace hoof::tools {
 
 struct HeapTest {
-  int grains = 3000;       // of the paper's grading, 2 to 6.4 mm
-  std::uint64_t seed = 1;  // of their places and order above the funnel
-  double outlet_m = 0.025;        // diameter
+  int grains = 3000;                                  // of the paper's grading, 2 to 6.4 mm
+  std::uint64_t seed = 1;                             // of their places and order above the funnel
+  double outlet_m = 0.025;                            // diameter
   double funnel_half_angle_rad = 0.5235987755982988;  // of the cone, to its axis
   double overflow = 1.35;  // grains poured over those that a cone of 38 degrees on the dish holds
   double step_s = 5.6e-6;  // 27 % of the Rayleigh time of the smallest grain
@@ -32,9 +32,9 @@ struct HeapTest {
 
 /// Lengths that follow from the test, m. The dish's floor is z = 0, its middle the origin.
 struct HeapGeometry {
-  double dish_radius_m = 0;  // of the floor, inside the rim
-  double rim_m = 0;          // its height: one d50 of the grading
-  double outlet_z_m = 0;     // a quarter above the tip of a cone of 40 degrees
+  double dish_radius_m = 0;    // of the floor, inside the rim
+  double rim_m = 0;            // its height: one d50 of the grading
+  double outlet_z_m = 0;       // a quarter above the tip of a cone of 40 degrees
   double funnel_radius_m = 0;  // of its cylinder
   double cone_top_z_m = 0;
   double funnel_top_z_m = 0;

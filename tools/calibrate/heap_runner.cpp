@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
-#include <limits>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <stdexcept>
@@ -72,15 +72,23 @@ std::optional<HeapResult> read_result(const fs::path& file) {
   return r;
 }
 
-/// A snapshot with its checksum in front; one that is damaged is as none.
-void restore(HeapMaking& heap, const fs::path& file) {
-  if (!fs::exists(file)) return;
-  const std::string bytes = read_file(file);
+/// The heap as it was left; from the beginning where nothing was kept, or what was kept is damaged
+/// or of another version of the engine.
+std::unique_ptr<HeapMaking> begin(const HeapCase& c, const fs::path& snapshot) {
+  auto heap = std::make_unique<HeapMaking>(c.materials, c.test);
+  if (!fs::exists(snapshot)) return heap;
+  const std::string bytes = read_file(snapshot);  // a checksum, then the heap's
   std::uint64_t sum = 0;
-  if (bytes.size() < sizeof sum) return;
+  if (bytes.size() < sizeof sum) return heap;
   std::memcpy(&sum, bytes.data(), sizeof sum);
   const std::string rest = bytes.substr(sizeof sum);
-  if (hash(rest) == sum) heap.restore(rest);
+  if (hash(rest) != sum) return heap;
+  try {
+    heap->restore(rest);
+  } catch (const std::runtime_error&) {
+    heap = std::make_unique<HeapMaking>(c.materials, c.test);
+  }
+  return heap;
 }
 
 void keep(const HeapMaking& heap, const fs::path& file) {
@@ -95,7 +103,10 @@ void keep(const HeapMaking& heap, const fs::path& file) {
 class Work {
  public:
   Work(const std::vector<HeapCase>& cases, const fs::path& folder, const HeapProgress& progress)
-      : cases_(cases), folder_(folder), progress_(progress), results_(cases.size()),
+      : cases_(cases),
+        folder_(folder),
+        progress_(progress),
+        results_(cases.size()),
         share_(cases.size(), 0.0) {
     for (std::size_t i = 0; i < cases.size(); ++i) {
       results_[i] = read_result(file_of(cases[i], folder));
@@ -138,16 +149,15 @@ class Work {
 
   std::optional<HeapResult> make(std::size_t i) {
     const HeapCase& c = cases_[i];
-    HeapMaking heap(c.materials, c.test);
     const fs::path snapshot = snapshot_of(c, folder_);
-    restore(heap, snapshot);
-    while (heap.advance()) {
-      if (tell(i, heap.share_poured() * (1 - kSettling))) continue;
-      keep(heap, snapshot);
+    const auto heap = begin(c, snapshot);
+    while (heap->advance()) {
+      if (tell(i, heap->share_poured() * (1 - kSettling))) continue;
+      keep(*heap, snapshot);
       return {};
     }
-    const HeapResult result{
-        heap_angle(heap.grains(), heap_geometry(c.test).dish_radius_m), heap.time_s()};
+    const HeapResult result{heap_angle(heap->grains(), heap_geometry(c.test).dish_radius_m),
+                            heap->time_s()};
     write_whole(file_of(c, folder_), to_text(result));
     std::error_code ignored;
     fs::remove(snapshot, ignored);

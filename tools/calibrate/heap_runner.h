@@ -35,7 +35,8 @@ std::string heap_key(const HeapCase& c);
 /// `folder` is read, not made.
 /// @param threads heaps at once; each is made by one
 /// @return empty where progress said to stop: what was begun is kept in `folder` too
-/// @throws std::runtime_error of the first case that failed, UserError where files cannot be written
+/// @throws std::runtime_error of the first case that failed, UserError where files cannot be
+/// written
 std::vector<HeapResult> make_heaps(const std::vector<HeapCase>& cases,
                                    const std::filesystem::path& folder, int threads,
                                    const HeapProgress& progress);

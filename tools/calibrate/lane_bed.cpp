@@ -83,10 +83,9 @@ LaneBed::LaneBed(const sim::Materials& materials, const std::vector<LaneStart>& 
     : pitch_m_(1.5 * largest_diameter_m(starts)),
       count_(starts.size()),
       bed_(make(materials, starts, pitch_m_, low_z_m, high_z_m, far_x_m)) {
-  bed_.add_mesh(
-      block(-plate.up_m, plate.down_m, 0.5 * pitch_m_ * double(count_) + kMargin_m),
-      Eigen::Vector3d::Zero(),
-      Eigen::Quaterniond(Eigen::AngleAxisd(plate.tilt_rad, Eigen::Vector3d::UnitY())));
+  bed_.add_mesh(block(-plate.up_m, plate.down_m, 0.5 * pitch_m_ * double(count_) + kMargin_m),
+                Eigen::Vector3d::Zero(),
+                Eigen::Quaterniond(Eigen::AngleAxisd(plate.tilt_rad, Eigen::Vector3d::UnitY())));
 }
 
 double LaneBed::lane_y_m(std::size_t lane) const {

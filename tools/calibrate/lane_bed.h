@@ -43,8 +43,8 @@ struct Plate {
 class LaneBed {
  public:
   /// @param low_z, high_z, far_x heights and distance that the grains may reach, m
-  LaneBed(const sim::Materials& materials, const std::vector<LaneStart>& starts,
-          const Plate& plate, double low_z_m, double high_z_m, double far_x_m);
+  LaneBed(const sim::Materials& materials, const std::vector<LaneStart>& starts, const Plate& plate,
+          double low_z_m, double high_z_m, double far_x_m);
 
   void advance(int steps) { bed_.advance(steps); }
   /// In the order of the starts; y about the lane's middle.

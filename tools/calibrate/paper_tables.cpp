@@ -20,7 +20,7 @@ double paper_repose_fit_deg(double a, double b, double c) {
 
 const std::vector<PaperRow>& paper_tilt_table() {
   static const std::vector<PaperRow> rows = {
-      {0.375, 20.90}, {0.4, 22.03},   {0.425, 23.22}, {0.45, 24.41}, {0.475, 25.66},
+      {0.375, 20.90}, {0.4, 22.03},   {0.425, 23.22}, {0.45, 24.41},  {0.475, 25.66},
       {0.5, 26.84},   {0.525, 27.85}, {0.55, 29.02},  {0.575, 30.14}, {0.6, 31.29},
       {0.625, 32.18}, {0.65, 33.32},  {0.675, 34.27}};
   return rows;

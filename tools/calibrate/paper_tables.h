@@ -29,9 +29,9 @@ const std::vector<PaperRow>& paper_roll_table();
 
 /// A fit c[0] x^2 + c[1] x + c[2].
 using Quadratic = std::array<double, 3>;
-inline constexpr Quadratic kPaperDropFit_mm = {15.30, 39.02, 24.06};    // L over e
-inline constexpr Quadratic kPaperTiltFit_deg = {-15.34, 61.00, 0.11};   // angle over mu_s
-inline constexpr Quadratic kPaperRollFit_mm = {-4.29, -11.70, 37.04};   // S2 over mu_r
+inline constexpr Quadratic kPaperDropFit_mm = {15.30, 39.02, 24.06};   // L over e
+inline constexpr Quadratic kPaperTiltFit_deg = {-15.34, 61.00, 0.11};  // angle over mu_s
+inline constexpr Quadratic kPaperRollFit_mm = {-4.29, -11.70, 37.04};  // S2 over mu_r
 
 /// A measured value (75 grains each; repose: 8 heaps), and the simulated check of what was
 /// calibrated from it.

@@ -34,8 +34,8 @@ std::vector<ReposeRow> combinations() {
   std::vector<ReposeRow> out;
   for (const ReposeRow& row : paper_repose_table()) {
     if (seen.insert({row.restitution, row.rolling_friction, row.static_friction}).second) {
-      out.push_back({row.restitution, row.rolling_friction, row.static_friction,
-                     paper_angle_deg(row)});
+      out.push_back(
+          {row.restitution, row.rolling_friction, row.static_friction, paper_angle_deg(row)});
     }
   }
   return out;
@@ -83,8 +83,13 @@ void add_table2(Findings& f, const std::vector<HeapResult>& results, std::size_t
     first += seeds;
   }
   std::sort(ours.begin(), ours.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
-  f.targets.push_back({text("table 2, rms over its %d combinations", int(ours.size())), "deg", {},
-                       {}, {}, std::sqrt(sum / double(ours.size())), 2});
+  f.targets.push_back({text("table 2, rms over its %d combinations", int(ours.size())),
+                       "deg",
+                       {},
+                       {},
+                       {},
+                       std::sqrt(sum / double(ours.size())),
+                       2});
   f.x_label = "angle of table 2, degrees";
   f.y_label = "angle here (ring fit), degrees";
   f.lines = {marks("combinations of table 2", ours, 0),
@@ -99,11 +104,13 @@ void plot_seeds(Findings& f, const std::vector<HeapResult>& results, std::size_t
     outline.push_back({double(first_seed + i), results[i].angle.outline_deg});
   }
   const auto level = [&](double angle_deg) {
-    return std::vector<PaperRow>{{ring.front().x - 0.5, angle_deg}, {ring.back().x + 0.5, angle_deg}};
+    return std::vector<PaperRow>{{ring.front().x - 0.5, angle_deg},
+                                 {ring.back().x + 0.5, angle_deg}};
   };
   f.x_label = "seed of the heap";
   f.y_label = "angle of repose, degrees";
-  f.lines = {marks("ring fit", ring, 0), marks("outline, as from a photograph", outline, 1),
+  f.lines = {marks("ring fit", ring, 0),
+             marks("outline, as from a photograph", outline, 1),
              line("measured by the paper, 37.8", level(kPaperReposeMeasured_deg), 6),
              line("simulated by the paper, 38.25", level(kPaperReposeSimulated_deg), 3),
              dashed("accepted", level(kPaperReposeMeasured_deg - kBand_deg), 2),
@@ -150,8 +157,8 @@ Findings find_repose(const sim::Materials& materials, const ReposeSettings& sett
   const Sample sides = sample(results, 0, seeds, &HeapAngle::sides_deg);
   const sim::ContactPair& p = materials.sand_sand;
   const HeapGeometry g = heap_geometry(settings.test);
-  const double fitted_deg = paper_repose_fit_deg(p.restitution.value, p.rolling_friction.value,
-                                                 p.static_friction.value);
+  const double fitted_deg =
+      paper_repose_fit_deg(p.restitution.value, p.rolling_friction.value, p.static_friction.value);
   Findings f;
   f.laboratory = "repose";
   f.title = "Repose: sand runs through a funnel and builds a heap";
@@ -172,8 +179,13 @@ Findings find_repose(const sim::Materials& materials, const ReposeSettings& sett
   f.targets = {{text("angle of repose, ring fit, mean of %d heaps", settings.seeds), "deg",
                 kPaperReposeMeasured_deg, bound(-1), bound(1), ring.mean, 2},
                {"the same by outline", "deg", kPaperReposeSimulated_deg, {}, {}, outline.mean, 2},
-               {"scatter of heaps, standard deviation of the ring fit", "deg", {}, {}, {},
-                ring.deviation, 2},
+               {"scatter of heaps, standard deviation of the ring fit",
+                "deg",
+                {},
+                {},
+                {},
+                ring.deviation,
+                2},
                {"half of the 95 % interval of the mean", "deg", {}, {}, {}, ring.confidence, 2},
                {"scatter within a heap, eighths of it", "deg", {}, {}, {}, sides.mean, 2}};
   f.readings_of = "the angle of repose of these coefficients, degrees";
@@ -181,14 +193,16 @@ Findings find_repose(const sim::Materials& materials, const ReposeSettings& sett
   f.readings = {
       {"paper: its fit of table 2, signs put back", fitted_deg,
        "as printed, all signs plus, it makes 184 degrees of the paper's optimum"},
-      {"paper: its simulation", kPaperReposeSimulated_deg, "of its optimum, e = 0.54, mu_r = 0.34, "
-                                                           "mu_s = 0.52; one heap"},
-      {"grains, ring fit", ring.mean, text("+- %.2f at 95 %% over %d heaps", ring.confidence,
-                                           settings.seeds)},
+      {"paper: its simulation", kPaperReposeSimulated_deg,
+       "of its optimum, e = 0.54, mu_r = 0.34, "
+       "mu_s = 0.52; one heap"},
+      {"grains, ring fit", ring.mean,
+       text("+- %.2f at 95 %% over %d heaps", ring.confidence, settings.seeds)},
       {"grains, outline", outline.mean,
        "of a heap a few tens of grains wide the fit and its range decide more than a degree"}};
   f.notes = {
-      "One angle does not calibrate three coefficients: by the paper's own surface 1.8 % of its box "
+      "One angle does not calibrate three coefficients: by the paper's own surface 1.8 % of its "
+      "box "
       "gives 37.8 degrees, e from 0.10 to 0.80, mu_r from 0.25, mu_s from 0.46 (hoof anova).",
       "The paper gives neither funnel, base nor number of grains, nor how the angle was fitted."};
   if (!enough) f.notes.push_back("The band is for 5 heaps at least; with fewer it is not judged.");

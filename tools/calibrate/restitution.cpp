@@ -35,8 +35,8 @@ Sweep sweep(const sim::Materials& materials, const DropTest& test, const LabProg
   for (const DropRow& row : paper_drop_table()) {
     tell(progress, double(s.rows.size()) / double(paper_drop_table().size() + 2),
          text("e = %.3f", row.e));
-    s.rows.push_back({row.e, drop(with(materials, row.e, 0), test),
-                      drop(with(materials, row.e, mu_s), test)});
+    s.rows.push_back(
+        {row.e, drop(with(materials, row.e, 0), test), drop(with(materials, row.e, mu_s), test)});
     s.paper.push_back({row.e, row.travel_mm});
     s.smooth.push_back({row.e, 1e3 * s.rows.back().smooth.travel_m.front()});
     s.rough.push_back({row.e, 1e3 * s.rows.back().rough.travel_m.front()});
@@ -91,9 +91,10 @@ void add_readings(Findings& f, const Sweep& s, double height_mm, double mu_s) {
       {"paper: its fit of table 3", root_of(kPaperDropFit_mm, measured, 0.1, 1),
        "a frictionless plate stands behind that table"},
       {"paper: L = 2 e H", measured / (2 * height_mm),
-       text("wrong: it takes the grain to fly off level (tangential speed kept = e); misses table 3 "
-            "by %.2f mm rms",
-            rms_to(s.paper, [&](double e) { return 2 * e * height_mm; }))},
+       text(
+           "wrong: it takes the grain to fly off level (tangential speed kept = e); misses table 3 "
+           "by %.2f mm rms",
+           rms_to(s.paper, [&](double e) { return 2 * e * height_mm; }))},
       {"grains, mu_s = 0", root_of(smooth, measured, 0.1, 1), "what the paper's table is"},
       {text("grains, mu_s = %.4f", mu_s), root_of(rough, measured, 0.1, 1),
        text("the friction that the paper calibrates next: the plate keeps %.2f to %.2f of the "
@@ -121,21 +122,32 @@ Findings find_restitution(const sim::Materials& materials, const RestitutionSett
   Findings f;
   f.laboratory = "restitution";
   f.title = "Restitution: a grain falls on a plate and bounces off";
-  f.about = {text("A 4 mm grain falls %.2f mm on a plate at %.1f degrees and lands %.2f mm below "
-                  "the impact, L away (centre to centre), once for each e of table 3, without and "
-                  "with friction (mu_s = %.4f).",
-                  height_mm, settings.test.plate_rad * 180 / std::numbers::pi,
-                  1e3 * settings.test.height_after_m, mu_s),
-             text("The check: %d grains of the paper's sizes at e = %.4f without friction, released "
-                  "within +- %.1f mm; weighted mean over bins of %.1f mm.",
-                  many.grains, e, 1e3 * many.spread_m, bin_mm)};
+  f.about = {
+      text("A 4 mm grain falls %.2f mm on a plate at %.1f degrees and lands %.2f mm below "
+           "the impact, L away (centre to centre), once for each e of table 3, without and "
+           "with friction (mu_s = %.4f).",
+           height_mm, settings.test.plate_rad * 180 / std::numbers::pi,
+           1e3 * settings.test.height_after_m, mu_s),
+      text("The check: %d grains of the paper's sizes at e = %.4f without friction, released "
+           "within +- %.1f mm; weighted mean over bins of %.1f mm.",
+           many.grains, e, 1e3 * many.spread_m, bin_mm)};
   f.targets = {
-      {"normal restitution, largest error of 26 impacts", "%", {}, {}, 1.0,
-       restitution_error_percent(s), 3},
+      {"normal restitution, largest error of 26 impacts",
+       "%",
+       {},
+       {},
+       1.0,
+       restitution_error_percent(s),
+       3},
       {"L(e), frictionless, rms to table 3", "mm", {}, {}, 0.5, rms_between(s.paper, s.smooth), 3},
       {"L(e), with friction, rms to table 3", "mm", {}, {}, {}, rms_between(s.paper, s.rough), 3},
-      {text("L at e = %.4f, binned mean", e), "mm", kPaperDropCheck_mm.check, {}, {},
-       binned_mean(landed_mm, bin_mm), 2},
+      {text("L at e = %.4f, binned mean", e),
+       "mm",
+       kPaperDropCheck_mm.check,
+       {},
+       {},
+       binned_mean(landed_mm, bin_mm),
+       2},
       {text("L at e = %.4f, plain mean", e), "mm", {}, {}, {}, mean_of(landed_mm), 2}};
   add_readings(f, s, height_mm, mu_s);
   f.notes = {

@@ -15,9 +15,9 @@
 namespace hoof::tools {
 namespace {
 
-constexpr int kStepsALook = 18;       // 50 us
-constexpr double kBehind_m = 15e-3;   // the incline goes on so far behind the release
-constexpr double kLongest_s = 4;      // just short of tan(incline) a grain hardly moves
+constexpr int kStepsALook = 18;      // 50 us
+constexpr double kBehind_m = 15e-3;  // the incline goes on so far behind the release
+constexpr double kLongest_s = 4;     // just short of tan(incline) a grain hardly moves
 
 /// One grain on its way. The edge is the origin, the incline ends there.
 class Roller {
@@ -84,9 +84,8 @@ void RollTest::validate() const {
   require_within("spread", 1e3 * spread_m, 0, 1e3 * run_m / 2, "mm");
 }
 
-RollOutcome roll(const sim::Materials& materials, const RollTest& test) {
+void require_rolling(const sim::Materials& materials, const RollTest& test) {
   test.validate();
-  const PlateFrame plate(test.incline_rad);
   const double mu_r = materials.sand_abs.rolling_friction.value;
   if (mu_r >= 0.98 * std::tan(test.incline_rad)) {
     throw std::invalid_argument("rolling friction " + format_number(mu_r) +
@@ -94,21 +93,25 @@ RollOutcome roll(const sim::Materials& materials, const RollTest& test) {
                                 format_number(test.incline_rad * 180 / std::numbers::pi) +
                                 " deg (must be under 0.98 tan of it)");
   }
+}
+
+RollOutcome roll(const sim::Materials& materials, const RollTest& test) {
+  require_rolling(materials, test);
+  const PlateFrame plate(test.incline_rad);
   // What a frictionless slide gives bounds speed and way.
   const double fastest_m_s =
-      std::sqrt(2 * kGravity_m_s2 * ((test.run_m + test.spread_m) * std::sin(test.incline_rad) +
-                                     test.fall_m));
+      std::sqrt(2 * kGravity_m_s2 *
+                ((test.run_m + test.spread_m) * std::sin(test.incline_rad) + test.fall_m));
   const double reach_m = 0.5 + 4 * fastest_m_s * fastest_m_s / kGravity_m_s2;
   const double top_m = (test.run_m + test.spread_m + kBehind_m) * std::sin(test.incline_rad);
   LaneBed bed(materials, starts_of(materials, test, plate),
-              {test.incline_rad, test.run_m + test.spread_m + kBehind_m, 0},
-              -test.fall_m - reach_m, top_m + 0.02, test.run_m + reach_m);
+              {test.incline_rad, test.run_m + test.spread_m + kBehind_m, 0}, -test.fall_m - reach_m,
+              top_m + 0.02, test.run_m + reach_m);
   std::vector<Roller> rollers;
   for (const sim::Grain& g : bed.grains()) rollers.emplace_back(plate, test.fall_m, g);
   const int looks = int(std::ceil(kLongest_s / (kStepsALook * kLabStep_s)));
   const auto all_landed = [&] {
-    return std::all_of(rollers.begin(), rollers.end(),
-                       [](const Roller& r) { return r.landed(); });
+    return std::all_of(rollers.begin(), rollers.end(), [](const Roller& r) { return r.landed(); });
   };
   for (int i = 0; i < looks && !all_landed(); ++i) {
     bed.advance(kStepsALook);

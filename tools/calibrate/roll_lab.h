@@ -26,6 +26,10 @@ struct RollOutcome {
   double rim_share = 0;          // rim speed over that: 1 is rolling without slip
 };
 
+/// @throws std::invalid_argument where the test is out of its bounds, or the rolling friction of
+/// materials.sand_abs holds a grain on the incline
+void require_rolling(const sim::Materials& materials, const RollTest& test);
+
 /// Friction and restitution are those of materials.sand_abs.
 /// @throws std::runtime_error where a grain does not roll to the edge or does not land
 RollOutcome roll(const sim::Materials& materials, const RollTest& test);

@@ -101,7 +101,7 @@ void add_readings(Findings& f, const Sweep& s, const RollTest& test, double bin_
 Findings find_rolling(const sim::Materials& materials, const RollingSettings& settings,
                       const LabProgress& progress) {
   const RollTest& test = settings.test;
-  test.validate();
+  require_rolling(materials, test);
   const double mu_r = materials.sand_abs.rolling_friction.value;
   const double degrees = test.incline_rad * 180 / std::numbers::pi;
   const Sweep s = sweep(materials, test, progress);
@@ -129,18 +129,34 @@ Findings find_rolling(const sim::Materials& materials, const RollingSettings& se
                   many.grains, mu_r, 1e3 * many.spread_m, bin_mm)};
   f.targets = {
       {"S2(mu_r), largest difference to table 5", "mm", {}, {}, 0.4, worst_miss_mm(s.ours), 3},
-      {"edge speed, largest error to rolling without slip", "%", {}, {}, 1.0,
-       speed_error_percent(s, test), 3},
+      {"edge speed, largest error to rolling without slip",
+       "%",
+       {},
+       {},
+       1.0,
+       speed_error_percent(s, test),
+       3},
       {"rim speed over edge speed, least", "", {}, {}, {}, rim_low, 4},
       {"rim speed over edge speed, most", "", {}, {}, {}, rim_high, 4},
-      {"S2 by the paper's balance, largest difference to table 5", "mm", {}, {}, {},
-       worst_miss_mm(s.no_spin), 2},
-      {text("S2 at mu_r = %.4f, binned mean", mu_r), "mm", kPaperRollCheck_mm.check, {}, {},
-       binned_mean(landed_mm, bin_mm), 2},
+      {"S2 by the paper's balance, largest difference to table 5",
+       "mm",
+       {},
+       {},
+       {},
+       worst_miss_mm(s.no_spin),
+       2},
+      {text("S2 at mu_r = %.4f, binned mean", mu_r),
+       "mm",
+       kPaperRollCheck_mm.check,
+       {},
+       {},
+       binned_mean(landed_mm, bin_mm),
+       2},
       {text("S2 at mu_r = %.4f, plain mean", mu_r), "mm", {}, {}, {}, mean_of(landed_mm), 2}};
   add_readings(f, s, test, bin_mm, many.grains);
   f.notes = {
-      "The paper gives neither incline nor lengths. 45 degrees was fixed, S1 and H4 fitted to table "
+      "The paper gives neither incline nor lengths. 45 degrees was fixed, S1 and H4 fitted to "
+      "table "
       "5 (40 to 55 degrees fit alike): the band tests the shape of S2(mu_r). With the paper's "
       "balance S1 = 35.4 mm fits as well, so the table cannot tell the two; a ruler can.",
       text("To roll without slip at mu_r = %.2f this incline needs mu_s = %.3f at least.",

@@ -17,7 +17,7 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr int kStepsATurn = 180;  // 0.5 ms: gravity turns by 1e-3 degrees at 2 degrees a second
 constexpr double kSteepest_rad = 80 * kDegree;
-constexpr double kHeldRolling = 10;        // above every mu_s that is allowed: nothing turns
+constexpr double kHeldRolling = 10;  // above every mu_s that is allowed: nothing turns
 constexpr double kQuick_rad_s = 40 * kDegree;
 constexpr double kBelow_rad = 2.5 * kDegree;  // the quick tilt is late by 1 to 2 degrees
 constexpr double kFirst = 0.02;  // of seen_m: above the elastic give of the contact, some 10 nm
@@ -109,8 +109,7 @@ TiltOutcome tilt(const sim::Materials& materials, const TiltTest& test) {
   Start at = start_of(materials, test);
   std::vector<SlideRecord> records(at.state.grains.size());
   const auto all_seen = [&] {
-    return std::all_of(records.begin(), records.end(),
-                       [](const SlideRecord& r) { return r.seen; });
+    return std::all_of(records.begin(), records.end(), [](const SlideRecord& r) { return r.seen; });
   };
   double tilt_rad = test.from_rad;
   for (long turn = 0; !all_seen(); ++turn) {

@@ -14,10 +14,10 @@
 namespace hoof::tools {
 
 struct TiltTest {
-  double from_rad = 0;             // where the tilting begins
+  double from_rad = 0;              // where the tilting begins
   double rate_rad_s = 0.034906585;  // 2 degrees a second
-  double seen_m = 1e-4;            // a grain that has slid so far is seen to slide
-  int grains = 1;                  // each alone; several have the sizes of the paper's grading
+  double seen_m = 1e-4;             // a grain that has slid so far is seen to slide
+  int grains = 1;                   // each alone; several have the sizes of the paper's grading
 
   /// @throws std::invalid_argument naming the first broken rule, its value and bound
   void validate() const;

@@ -1,8 +1,9 @@
+#include "tools/cli/calibrate_command.h"
+
 #include <memory>
 #include <numbers>
 
 #include "tools/calibrate/calibrate.h"
-#include "tools/cli/commands.h"
 
 namespace hoof::tools {
 namespace {
@@ -14,7 +15,8 @@ constexpr double kDegree = std::numbers::pi / 180;
 CLI::Option* scaled(CLI::App& command, const std::string& flag, double& into, double unit,
                     const std::string& help, const std::string& type) {
   return command
-      .add_option_function<double>(flag, [&into, unit](double value) { into = value * unit; }, help)
+      .add_option_function<double>(
+          flag, [&into, unit](double value) { into = value * unit; }, help)
       ->type_name(type);
 }
 
@@ -36,9 +38,9 @@ void add_common(CLI::App& command, CalibrateOptions& options, const std::string&
       ->type_name("MU")
       ->check(CLI::Range(0.0, 5.0));
   command
-      .add_option("--out", options.out,
-                  "Folder for result.json, runs.csv, report.html [runs/calibrate-" + laboratory +
-                      "]")
+      .add_option(
+          "--out", options.out,
+          "Folder for result.json, runs.csv, report.html [runs/calibrate-" + laboratory + "]")
       ->type_name("DIR");
   command.add_flag("--quiet", options.quiet, "Show no progress");
 }
@@ -65,9 +67,8 @@ void add_restitution(CLI::App& parent, Invocation& invocation) {
       "restitution", "Drop on an inclined plate: travel L over e (table 3), and e of a measured L");
   add_common(*command, o->common, "restitution", "grain on plate");
   add_check(*command, o->lab.check);
-  CLI::Option* before =
-      scaled(*command, "--height", o->lab.test.height_m, kMillimetre, "Fall onto the plate [40.42]",
-             "MM");
+  CLI::Option* before = scaled(*command, "--height", o->lab.test.height_m, kMillimetre,
+                               "Fall onto the plate [40.42]", "MM");
   CLI::Option* after = scaled(*command, "--height-after", o->lab.test.height_after_m, kMillimetre,
                               "Fall after the impact [as --height]", "MM");
   scaled(*command, "--plate", o->lab.test.plate_rad, kDegree, "Of the plate [45]", "DEG");
