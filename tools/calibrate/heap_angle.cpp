@@ -6,6 +6,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "tools/study/statistics.h"
+
 namespace hoof::tools {
 namespace {
 
@@ -83,13 +85,6 @@ double outline_deg(const Surface& surface, double radius_m, double azimuth) {
   return 0.5 * (flanks[0].angle_deg() + flanks[1].angle_deg());
 }
 
-double deviation(const std::vector<double>& values) {
-  double mean = 0, sum = 0;
-  for (const double v : values) mean += v / double(values.size());
-  for (const double v : values) sum += (v - mean) * (v - mean);
-  return std::sqrt(sum / double(values.size() - 1));
-}
-
 }  // namespace
 
 HeapAngle heap_angle(const std::vector<sim::Grain>& grains, double dish_radius_m) {
@@ -117,7 +112,7 @@ HeapAngle heap_angle(const std::vector<sim::Grain>& grains, double dish_radius_m
   out.ring_deg = ring.angle_deg();
   std::vector<double> parts;
   for (const Slope& part : eighths) parts.push_back(part.angle_deg());
-  out.sides_deg = deviation(parts);
+  out.sides_deg = sample_of(parts).deviation;
   for (int side = 0; side < kSides; ++side) {
     out.outline_deg +=
         outline_deg(surface, dish_radius_m, std::numbers::pi * side / kSides) / kSides;

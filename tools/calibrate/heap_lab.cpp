@@ -13,6 +13,7 @@
 #include "tools/calibrate/lab_formulas.h"
 #include "tools/calibrate/lab_rules.h"
 #include "tools/calibrate/lane_bed.h"
+#include "tools/run/csv_writer.h"
 
 namespace hoof::tools {
 namespace {
@@ -87,10 +88,12 @@ sim::BedState hopper(const HeapTest& t, const HeapGeometry& g, std::vector<doubl
 }
 
 sim::TriangleMesh dish(const HeapGeometry& g) {
-  const double r = g.dish_radius_m, w = 0.5 * kWall_m;
-  return revolved(
-      {{0, -kWall_m}, {r + w, -kWall_m}, {r + w, g.rim_m}, {r, g.rim_m}, {r, 0}, {0, 0}},
-      kSegments);
+  const double r = g.dish_radius_m, out = r + 0.5 * kWall_m;
+  std::vector<std::pair<double, double>> polygon = {{0, -kWall_m}, {out, -kWall_m}};
+  if (g.rim_m > 0) polygon.insert(polygon.end(), {{out, g.rim_m}, {r, g.rim_m}, {r, 0}});
+  if (g.rim_m <= 0) polygon.emplace_back(out, 0);
+  polygon.emplace_back(0, 0);
+  return revolved(polygon, kSegments);
 }
 
 sim::TriangleMesh funnel(const HeapTest& t, const HeapGeometry& g) {
@@ -128,6 +131,7 @@ void HeapTest::validate() const {
   require_within("funnel-angle", funnel_half_angle_rad / kDegree, 10, 60, "deg");
   require_within("step", 1e6 * step_s, 0.5, 8, "us");
   require_within("overflow", overflow, 1, 5, "");
+  require_within("rim", rim, 0, 3, "");
 }
 
 HeapGeometry heap_geometry(const HeapTest& t) {
@@ -136,7 +140,7 @@ HeapGeometry heap_geometry(const HeapTest& t) {
   HeapGeometry g;
   g.dish_radius_m =
       std::cbrt(solids / t.overflow / kShareOfSolids * 3 / std::numbers::pi / std::tan(kConeAngle));
-  g.rim_m = bed.d50_m();
+  g.rim_m = t.rim * bed.d50_m();
   g.outlet_z_m = 1.25 * (g.rim_m + g.dish_radius_m * std::tan(40 * kDegree));
   g.funnel_radius_m = std::max(1.2 * g.dish_radius_m, t.outlet_m);
   g.cone_top_z_m =

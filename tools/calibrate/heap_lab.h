@@ -23,6 +23,7 @@ struct HeapTest {
   double outlet_m = 0.025;                            // diameter
   double funnel_half_angle_rad = 0.5235987755982988;  // of the cone, to its axis
   double overflow = 1.35;  // grains poured over those that a cone of 38 degrees on the dish holds
+  double rim = 1;          // height of the dish's rim over d50 of the grading; 0: a flat plate
   double step_s = 5.6e-6;  // 27 % of the Rayleigh time of the smallest grain
   double longest_s = 8;    // simulated time at most
 
@@ -33,7 +34,7 @@ struct HeapTest {
 /// Lengths that follow from the test, m. The dish's floor is z = 0, its middle the origin.
 struct HeapGeometry {
   double dish_radius_m = 0;    // of the floor, inside the rim
-  double rim_m = 0;            // its height: one d50 of the grading
+  double rim_m = 0;            // its height
   double outlet_z_m = 0;       // a quarter above the tip of a cone of 40 degrees
   double funnel_radius_m = 0;  // of its cylinder
   double cone_top_z_m = 0;

@@ -198,7 +198,8 @@ std::string heap_key(const HeapCase& c) {
     add(p->restitution.value), add(p->static_friction.value), add(p->rolling_friction.value);
   }
   const HeapTest& t = c.test;
-  add(t.grains), add(t.outlet_m), add(t.funnel_half_angle_rad), add(t.overflow), add(t.step_s);
+  add(t.grains), add(t.outlet_m), add(t.funnel_half_angle_rad), add(t.overflow), add(t.rim),
+      add(t.step_s);
   add(t.longest_s);
   return key + " seed " + std::to_string(t.seed);
 }

@@ -1,10 +1,9 @@
 // One line for a setting that is out of its bounds.
 #pragma once
 
+#include <cstdio>
 #include <stdexcept>
 #include <string>
-
-#include "tools/run/csv_writer.h"
 
 namespace hoof::tools {
 
@@ -12,9 +11,11 @@ namespace hoof::tools {
 inline void require_within(const std::string& flag, double value, double low, double high,
                            const std::string& unit) {
   if (value >= low && value <= high) return;  // a NaN is out
-  const std::string of = unit.empty() ? "" : " " + unit;
-  throw std::invalid_argument("--" + flag + " = " + format_number(value) + of + ", must be from " +
-                              format_number(low) + " to " + format_number(high) + of);
+  const char* blank = unit.empty() ? "" : " ";
+  char text[200];
+  std::snprintf(text, sizeof text, "--%s = %g%s%s, must be from %g to %g%s%s", flag.c_str(), value,
+                blank, unit.c_str(), low, high, blank, unit.c_str());
+  throw std::invalid_argument(text);
 }
 
 }  // namespace hoof::tools

@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "tools/calibrate/paper_tables.h"
+#include "tools/calibrate/reduction.h"
 #include "tools/calibrate/single_grain.h"
 #include "tools/study/line_plot.h"
+#include "tools/study/statistics.h"
 
 namespace hoof::tools {
 
@@ -26,6 +28,16 @@ inline void tell(const LabProgress& progress, double share, const std::string& d
 inline std::vector<double> in_mm(std::vector<double> values_m) {
   for (double& v : values_m) v *= 1e3;
   return values_m;
+}
+
+/// What bins did to a weighted mean.
+inline std::string bins_text(const std::vector<double>& values_mm, double bin_mm) {
+  return text(
+      "The %d grains of the check scatter by %.2f mm (standard deviation); bins of %.1f mm move "
+      "their mean by %+.2f mm. Bins wider than the scatter give the middle of a bin, whatever the "
+      "grains do.",
+      int(values_mm.size()), values_mm.size() > 1 ? sample_of(values_mm).deviation : 0.0, bin_mm,
+      binned_mean(values_mm, bin_mm) - mean_of(values_mm));
 }
 
 inline PlotLine line(const std::string& label, const std::vector<PaperRow>& rows, int colour) {

@@ -197,7 +197,8 @@ Findings find_repose(const sim::Materials& materials, const ReposeSettings& sett
        "of its optimum, e = 0.54, mu_r = 0.34, "
        "mu_s = 0.52; one heap"},
       {"grains, ring fit", ring.mean,
-       text("+- %.2f at 95 %% over %d heaps", ring.confidence, settings.seeds)},
+       settings.seeds > 1 ? text("+- %.2f at 95 %% over %d heaps", ring.confidence, settings.seeds)
+                          : "one heap tells no scatter"},
       {"grains, outline", outline.mean,
        "of a heap a few tens of grains wide the fit and its range decide more than a degree"}};
   f.notes = {

@@ -11,6 +11,7 @@
 #include "tools/calibrate/lab_formulas.h"
 #include "tools/calibrate/lab_rules.h"
 #include "tools/calibrate/lane_bed.h"
+#include "tools/run/csv_writer.h"
 
 namespace hoof::tools {
 namespace {

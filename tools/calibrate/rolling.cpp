@@ -93,7 +93,9 @@ void add_readings(Findings& f, const Sweep& s, const RollTest& test, double bin_
       {"balance with spin, 7/5", by_balance(measured, test, kSolidSphere),
        "v^2 = 10/7 g S1 (sin - mu_r cos) at this run and fall"},
       {"grains", root_of(ours, measured, 0, 0.3),
-       text("bins of %.0f mm with %d grains alone leave +- %.3f of it", bin_mm, grains, doubt)}};
+       text("bins of %.0f mm leave +- %.3f of %d grains that scatter over several bins, up to "
+            "+- %.2f of grains that all fall into one",
+            bin_mm, doubt, grains, 0.5 * bin_mm / std::abs(slope))}};
 }
 
 }  // namespace
@@ -155,6 +157,7 @@ Findings find_rolling(const sim::Materials& materials, const RollingSettings& se
       {text("S2 at mu_r = %.4f, plain mean", mu_r), "mm", {}, {}, {}, mean_of(landed_mm), 2}};
   add_readings(f, s, test, bin_mm, many.grains);
   f.notes = {
+      bins_text(landed_mm, bin_mm),
       "The paper gives neither incline nor lengths. 45 degrees was fixed, S1 and H4 fitted to "
       "table "
       "5 (40 to 55 degrees fit alike): the band tests the shape of S2(mu_r). With the paper's "

@@ -146,6 +146,7 @@ void add_repose(CLI::App& parent, Invocation& invocation) {
       ->type_name("S");
   scaled(*command, "--outlet", o->lab.test.outlet_m, kMillimetre, "Of the funnel, diameter [25]",
          "MM");
+  scaled(*command, "--rim", o->lab.test.rim, 1, "Of the dish, over d50; 0: a flat plate [1]", "X");
   scaled(*command, "--step", o->lab.test.step_s, 1e-6, "Time step [5.6]", "US");
   command->add_option("--threads", o->threads, "Heaps at once, 1..1024; the bytes are the same [2]")
       ->type_name("N")

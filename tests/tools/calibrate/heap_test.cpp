@@ -66,8 +66,8 @@ TEST_CASE("heap angle: that of a cone by both fits, whichever way it is turned")
       CHECK(a.ring_deg == Approx(angle_deg).margin(0.15));
       CHECK(a.outline_deg == Approx(angle_deg).margin(0.3));
       CHECK(a.sides_deg < 0.2);
-      // A sphere of radius r under a slope touches it at r / cos, which lifts all alike.
-      CHECK(a.height_m == Approx(0.061).margin(0.5e-3));
+      // The tip's grain need not stand under a point of the grid, nor on the axis.
+      CHECK(a.height_m == Approx(0.061).margin(0.8e-3));
     }
   }
 }
@@ -194,6 +194,9 @@ TEST_CASE("heaps: what decides the outcome is in the key; cases are those of tab
   CHECK(keys.size() == cases.size());
   HeapCase other = cases[0];
   other.test.outlet_m *= 1.01;
+  CHECK(heap_key(other) != heap_key(cases[0]));
+  other = cases[0];
+  other.test.rim = 0;
   CHECK(heap_key(other) != heap_key(cases[0]));
   other = cases[0];
   other.materials.sand_abs.rolling_friction.value = 0.05;

@@ -52,8 +52,9 @@ TEST_CASE("the tables give the paper's fits, with the minus signs put back") {
 TEST_CASE("table 2 of the tool is that of the test data") {
   std::ifstream file(std::string(HOOF_TEST_DATA_DIR) + "/paper/table2.csv");
   std::string line;
-  REQUIRE(std::getline(file, line));
-  REQUIRE(line.rfind("e,mu_r,mu_s,repose_deg", 0) == 0);
+  while (std::getline(file, line) && line.front() == '#') {
+  }
+  REQUIRE(line == "e,mu_r,mu_s,repose_deg");
   for (const ReposeRow& row : paper_repose_table()) {
     REQUIRE(std::getline(file, line));
     double e = 0, mu_r = 0, mu_s = 0, angle = 0;

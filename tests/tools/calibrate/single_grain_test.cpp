@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numbers>
 
 #include "tests/tools/calibrate/lab_sand.h"
 #include "tools/calibrate/drop_lab.h"
@@ -33,13 +34,14 @@ TEST_CASE("drop: without friction the grain lands where the closed form says") {
       test.height_m = before_m, test.height_after_m = after_m;
       const DropOutcome out = drop(sand(e, 0, 0), test);
       INFO("e " << e << ", heights " << before_m << " and " << after_m << " m");
-      // The contact law meets e within 1 % at this step.
-      CHECK(out.kept_normal == Approx(e).epsilon(0.01));
+      // The dashpot acts on the speed before the step, and the first step of a contact begins
+      // anywhere in it: up to 0.008 at e = 0.2, 1 % at the e of sand.
+      CHECK(out.kept_normal == Approx(e).margin(0.0085));
       // Gravity goes on along the plate during the 0.15 ms of the impact: 1 mm/s of 0.44 and more.
       CHECK(out.kept_tangential == Approx(1).margin(0.004));
       CHECK(out.rim_share == 0);
-      // dL/L is under de/e; the grain also moves some 0.1 mm while it touches.
-      CHECK(out.travel_m.front() == Approx(drop_travel(e, 1, before_m, after_m)).epsilon(0.01));
+      // dL is under 0.5 de times both heights' mean; the grain also moves 0.1 mm while it touches.
+      CHECK(out.travel_m.front() == Approx(drop_travel(e, 1, before_m, after_m)).epsilon(0.015));
       CHECK(out.travel_m.front() ==
             Approx(drop_travel(out.kept_normal, out.kept_tangential, before_m, after_m))
                 .epsilon(0.004));
@@ -47,37 +49,68 @@ TEST_CASE("drop: without friction the grain lands where the closed form says") {
   }
 }
 
-TEST_CASE("drop: friction that slips all through takes mu (1 + e), and spins the grain") {
-  // A rigid sphere slips through the impact while 7/2 mu (1 + e) stays under vt/vn = 1.
-  for (const double mu_s : {0.05, 0.1, 0.15}) {
-    for (const double e : {0.4, 0.8}) {
-      const DropOutcome out = drop(sand(e, mu_s, 0), {});
-      INFO("mu_s " << mu_s << ", e " << e);
-      const double taken = mu_s * (1 + e);
-      // Where sliding ends elastically and by what gravity adds: 0.3 % of the speed; e within 1 %.
-      CHECK(out.kept_tangential == Approx(1 - taken).margin(0.006));
-      // Angular momentum about the contact: rim speed gained is 5/2 of the speed lost.
-      CHECK(out.rim_share == Approx(2.5 * taken).margin(0.01));
+namespace {
+
+/// Impulses of one normal impact over m v: of the whole force's magnitude, which caps friction, and
+/// of its elastic part, which rolling friction uses.
+struct Impulses {
+  double whole = 0, elastic = 0;
+};
+
+/// x'' = -(x^1.5 + sqrt(5) |beta| x^0.25 x') from x = 0 at speed 1 until x = 0: the contact law
+/// with all its constants scaled away.
+Impulses impact(double e) {
+  const double ln_e = std::log(e);
+  const double beta = std::abs(ln_e) / std::hypot(ln_e, std::numbers::pi);
+  Impulses sum;
+  double x = 0, v = 1;
+  const double dt = 1e-5;
+  do {
+    const double elastic = std::pow(x, 1.5);
+    const double force = elastic + std::sqrt(5.0) * beta * std::pow(x, 0.25) * v;
+    v -= dt * force;
+    x += dt * v;
+    sum.whole += dt * std::abs(force);
+    sum.elastic += dt * elastic;
+  } while (x > 0);
+  CHECK(-v == Approx(e).epsilon(0.01));  // what beta is made for
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("drop: friction that slips all through takes its share of the normal force's impulse") {
+  // A rigid sphere slips through the impact while 7/2 mu (1 + e) stays well under vt/vn = 1. The
+  // dashpot pulls at the end of a contact, and that pull caps friction by its size too: more than
+  // mu (1 + e) is taken. (Not here: mu_s = 0.1 at e = 0.4, where 2 % of the speed go beyond that.)
+  for (const auto& [mu_s, restitutions] :
+       {std::pair(0.05, std::vector{0.4, 0.8}), {0.1, std::vector{0.8}}}) {
+    for (const double e : restitutions) {
+      for (const double mu_r : {0.0, 0.02}) {
+        const DropOutcome out = drop(sand(e, mu_s, mu_r), {});
+        const Impulses j = impact(e);
+        INFO("mu_s " << mu_s << ", e " << e << ", mu_r " << mu_r);
+        // What gravity adds is 0.3 % of the speed; e is met within 0.0085.
+        CHECK(out.kept_tangential == Approx(1 - mu_s * j.whole).margin(0.006));
+        // Angular momentum: rim speed is 5/2 of the tangential speed lost, less what rolling
+        // friction takes.
+        CHECK(out.rim_share == Approx(2.5 * (mu_s * j.whole - mu_r * j.elastic)).margin(0.015));
+      }
     }
   }
-  // Rolling friction brakes that spin by 5/2 mu_r (1 + e).
-  const double mu_r = 0.05;
-  const DropOutcome free = drop(sand(0.6, 0.4, 0), {});
-  const DropOutcome braked = drop(sand(0.6, 0.4, mu_r), {});
-  CHECK(free.rim_share - braked.rim_share == Approx(2.5 * mu_r * 1.6).epsilon(0.1));
-  CHECK(free.rim_share == Approx(2.5 * (1 - free.kept_tangential)).margin(0.01));
 }
 
 TEST_CASE("drop: the outcome is that of any size; places of release are the seed's") {
   DropTest test;
   test.grains = 6;
   const DropOutcome sizes = drop(sand(0.5636, 0.5929, 0.0408), test);
-  // Centre to centre; the contact lasts longer for larger grains: 0.1 mm of way in it.
-  CHECK(spread(sizes.travel_m) < 0.004);
+  // e of one impact is met within 0.0085, and L changes by 40 mm times that; the contact lasts
+  // longer for larger grains, 0.1 mm of way.
+  CHECK(spread(sizes.travel_m) < 0.012);
   test.spread_m = 1e-3;
   const auto first = drop(sand(0.5636, 0.5929, 0.0408), test).travel_m;
   CHECK(first == drop(sand(0.5636, 0.5929, 0.0408), test).travel_m);
-  CHECK(spread(first) > 0.005);
+  CHECK(spread(first) > 0.015);
   test.seed = 2;
   CHECK(first != drop(sand(0.5636, 0.5929, 0.0408), test).travel_m);
 }
@@ -132,8 +165,10 @@ TEST_CASE("tilt: sliding begins at atan(mu_s), and is seen late by the closed fo
       const TiltOutcome out = tilt_in_two(sand(0.5636, mu_s, 0.0408), test);
       INFO("mu_s " << mu_s << ", " << rate_deg_s << " degrees a second");
       const double onset = std::atan(mu_s);
-      // Gravity is turned in pieces of 0.5 ms: 0.001 and 0.004 degrees.
-      CHECK(out.onset_rad.front() / kDegree == Approx(onset / kDegree).margin(0.006));
+      // Gravity is turned in pieces of 0.5 ms, 0.001 and 0.004 degrees; the slide is a cube only
+      // near the onset, off by the square of how late it is seen.
+      CHECK(out.onset_rad.front() / kDegree ==
+            Approx(onset / kDegree).margin(rate_deg_s > 5 ? 0.012 : 0.005));
       // a = g (sin - mu_s cos) = g (tilt - onset) / cos(onset) near the onset, so that the slide is
       // g rate t^3 / (6 cos(onset)).
       const double late =
@@ -149,10 +184,10 @@ TEST_CASE("tilt: any size slides alike, whatever its rolling friction") {
   test.rate_rad_s = 20 * kDegree;
   test.from_rad = 28 * kDegree;
   const TiltOutcome out = tilt(sand(0.5636, 0.5929, 0.0), test);
-  CHECK(spread(out.onset_rad) < 1e-4);
+  CHECK(spread(out.onset_rad) < 5e-4);  // a piece of 0.5 ms is 0.01 degrees here
   test.grains = 1;
   CHECK(tilt(sand(0.5636, 0.5929, 0.3), test).onset_rad.front() ==
-        Approx(out.onset_rad.front()).epsilon(1e-4));
+        Approx(out.onset_rad.front()).epsilon(5e-4));
 }
 
 TEST_CASE("laboratories name what cannot be") {
