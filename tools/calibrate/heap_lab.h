@@ -1,8 +1,8 @@
 // The repose laboratory: grains run through a funnel onto a dish with a rim and build a heap, what
 // is too much runs over the rim.
 //
-// The rim holds the foot of the heap, so that the angle is the sand's own: on a smooth plate of
-// little rolling friction the lowest grains would roll away from under the rest.
+// The rim is there so that the foot of the heap does not roll away on a plate of little rolling
+// friction; README.md says what it changes.
 #pragma once
 
 #include <cstdint>
