@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "tools/cli/calibrate_command.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/exit_status.h"
 #include "tools/cli/invocation.h"
@@ -61,6 +62,7 @@ int main(int argc, char** argv) {
   add_simulate_command(app, invocation);
   add_design_command(app, invocation);
   add_anova_command(app, invocation);
+  add_calibrate_command(app, invocation);
   add_conceal_command(app, invocation);
   add_version_command(app, invocation);
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "tools/report/html.h"
 
@@ -25,6 +26,11 @@ void append(std::string& text, const char* format, Args... args) {
 struct Axis {
   double low = 0, high = 0;
 
+  /// Covers no value yet, not even zero.
+  static Axis empty() {
+    constexpr double kFar = std::numeric_limits<double>::infinity();
+    return {kFar, -kFar};
+  }
   void cover(double value) {
     if (!std::isfinite(value)) return;
     low = std::min(low, value);
@@ -43,12 +49,20 @@ struct Axis {
 
 class Plot {
  public:
-  explicit Plot(const std::vector<PlotLine>& lines) {
+  Plot(const std::vector<PlotLine>& lines, PlotAxes axes) {
+    if (axes == PlotAxes::kTight) x_ = y_ = Axis::empty();
     for (const PlotLine& line : lines) {
       for (std::size_t i = 0; i < line.points.size(); ++i) {
         const auto& [x, y] = line.points[i];
         const double bar = i < line.half_range.size() ? line.half_range[i] : 0;
         x_.cover(x), y_.cover(y - bar), y_.cover(y + bar);
+      }
+    }
+    for (Axis* axis : {&x_, &y_}) {
+      if (axis->low > axis->high) *axis = {};
+      if (axes == PlotAxes::kTight) {
+        const double room = 0.04 * (axis->high - axis->low);
+        axis->low -= room, axis->high += room;
       }
     }
     if (x_.high == x_.low) x_.high = x_.low + 1;
@@ -71,6 +85,15 @@ class Plot {
   void line(std::string& svg, const PlotLine& line, std::size_t index) const {
     const char* colour = kColours[std::size_t(line.colour) % kColours.size()];
     const char* dash = line.dashed ? " stroke-dasharray=\"5 4\"" : "";
+    const double at_y = kTop + 8 + 16 * double(index);
+    if (line.marks) {
+      for (const auto& [px, py] : line.points) {
+        if (std::isfinite(px) && std::isfinite(py)) circle(svg, x(px), y(py), colour);
+      }
+      circle(svg, kWidth - kRight + 24, at_y, colour);
+      label(svg, line, at_y);
+      return;
+    }
     append(svg, "<polyline fill=\"none\" stroke=\"%s\"%s stroke-width=\"1.6\" points=\"", colour,
            dash);
     for (const auto& [px, py] : line.points) {
@@ -84,14 +107,20 @@ class Plot {
              y(py + line.half_range[i]), colour);
       append(svg, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3\" fill=\"%s\"/>\n", x(px), y(py), colour);
     }
-    const double at_y = kTop + 8 + 16 * double(index);
     append(svg, "<path d=\"M%.1f %.1fh24\" stroke=\"%s\"%s stroke-width=\"2\"/>",
            kWidth - kRight + 12, at_y, colour, dash);
-    append(svg, "<text x=\"%.1f\" y=\"%.1f\">", kWidth - kRight + 42, at_y + 4);
-    svg += html_escape(line.label) + "</text>\n";
+    label(svg, line, at_y);
   }
 
  private:
+  static void circle(std::string& svg, double cx, double cy, const char* colour) {
+    append(svg, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\" fill=\"none\" stroke=\"%s\"/>\n", cx, cy,
+           colour);
+  }
+  static void label(std::string& svg, const PlotLine& line, double at_y) {
+    append(svg, "<text x=\"%.1f\" y=\"%.1f\">", kWidth - kRight + 42, at_y + 4);
+    svg += html_escape(line.label) + "</text>\n";
+  }
   double x(double v) const {
     return kLeft + (v - x_.low) / (x_.high - x_.low) * (kWidth - kLeft - kRight);
   }
@@ -105,7 +134,8 @@ class Plot {
 }  // namespace
 
 std::string draw_lines(const std::string& title, const std::string& x_label,
-                       const std::string& y_label, const std::vector<PlotLine>& lines) {
+                       const std::string& y_label, const std::vector<PlotLine>& lines,
+                       PlotAxes axes) {
   std::string svg;
   append(svg,
          "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\" "
@@ -119,7 +149,7 @@ std::string draw_lines(const std::string& title, const std::string& x_label,
   svg += html_escape(x_label) + "</text>\n";
   append(svg, "<text x=\"%.0f\" y=\"34\">", kLeft - 60);
   svg += html_escape(y_label) + "</text>\n";
-  const Plot plot(lines);
+  const Plot plot(lines, axes);
   plot.grid(svg);
   for (std::size_t i = 0; i < lines.size(); ++i) plot.line(svg, lines[i], i);
   return svg + "</svg>\n";
