@@ -1,9 +1,8 @@
-#include "tools/cli/calibrate_command.h"
-
 #include <memory>
 #include <numbers>
 
 #include "tools/calibrate/calibrate.h"
+#include "tools/cli/commands.h"
 
 namespace hoof::tools {
 namespace {

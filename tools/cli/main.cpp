@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <string>
 
-#include "tools/cli/calibrate_command.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/exit_status.h"
 #include "tools/cli/invocation.h"

@@ -402,7 +402,8 @@ std::vector<RigModel::Counted> PendulumModel::counted(const sim::EffectInfo& eff
   const double leaves = 1 - std::pow(memory, 1 / each);
   const double p = share * leaves, burst = 1 / ((1 - share) * leaves);
   // Chance in how many bursts there were; and those that change the goal by less than the noise are
-  // not seen, or not to their end.
+  // not seen, or not to their end: of 24 numbers on concealed plants (seed 88001) five were off by
+  // 1.4 to 1.7 times where chance alone allowed 1.2 to 1.4.
   constexpr double kMisread = 0.35;
   const double wide = std::hypot(1.96 / std::sqrt(bursts), kMisread);
   return {

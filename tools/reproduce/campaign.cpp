@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "sim/config/config_error.h"
+#include "tools/experiment/resume_folder.h"
 #include "tools/experiment/run_experiment.h"
 #include "tools/run/errors.h"
 #include "tools/run/output_file.h"
@@ -101,20 +102,26 @@ bool Campaign::done(const Cell& cell) const {
   return sealed.is_object() && sealed.value("result_sha256", "") == sha256_hex_of_file(result);
 }
 
+bool Campaign::can_be_resumed(const Cell& cell) const {
+  if (!fs::exists(resume_path(place(cell)))) return false;
+  try {
+    ResumeFolder::open(resume_path(place(cell)), cell.kind());
+    return true;
+  } catch (const UserError& error) {  // begun by another build
+    std::cerr << "hoof: " << error.what() << "; " << cell.id() << " is run anew\n";
+    return false;
+  }
+}
+
 bool Campaign::try_cell(const Cell& cell, bool quiet, std::string& why_not) const {
   RunOutput output;
   output.out = place(cell);
   output.quiet = quiet;
   output.silent = true;
   try {
-    if (fs::exists(resume_path(place(cell)))) {
-      // What was begun by another build, or another process left without a checkpoint, is done
-      // anew.
-      try {
-        resume_experiment(cell.kind(), resume_path(place(cell)), output);
-        return true;
-      } catch (const UserError&) {
-      }
+    if (can_be_resumed(cell)) {
+      resume_experiment(cell.kind(), resume_path(place(cell)), output);
+      return true;
     }
     output.force = true;
     run_experiment(read_run_settings(cell.kind(), overrides(cell)), output);
@@ -129,10 +136,27 @@ bool Campaign::try_cell(const Cell& cell, bool quiet, std::string& why_not) cons
   }
 }
 
+void Campaign::write_seal(const Cell& cell) const {
+  const fs::path result = place(cell) / "result.json";
+  const auto version = read_json(result);
+  fs::path partial = seal(cell);
+  partial += ".partial";
+  write_result_json(
+      partial,
+      {{"settings_sha256", settings_hash(sim::Settings::load_file(place(cell) / "settings.toml"))},
+       {"result_sha256", sha256_hex_of_file(result)},
+       {"code", version.contains("version") ? version["version"].value("code", "") : ""}});
+  fs::rename(partial, seal(cell));
+}
+
 std::vector<std::string> Campaign::run(bool quiet, const std::function<void(const Cell&)>& after) {
   std::vector<const Cell*> missing;
   for (const Cell& cell : cells_) {
-    if (!done(cell)) missing.push_back(&cell);
+    if (!done(cell)) {
+      missing.push_back(&cell);
+    } else if (!fs::exists(seal(cell))) {
+      write_seal(cell);
+    }
   }
   std::vector<std::string> failed;
   const auto start = std::chrono::steady_clock::now();
@@ -154,17 +178,7 @@ std::vector<std::string> Campaign::run(bool quiet, const std::function<void(cons
       std::cerr << "hoof: " << failed.back() << "\n";
       continue;
     }
-    const fs::path result = place(cell) / "result.json";
-    const auto version = read_json(result);
-    fs::path partial = seal(cell);
-    partial += ".partial";
-    write_result_json(
-        partial,
-        {{"settings_sha256",
-          settings_hash(sim::Settings::load_file(place(cell) / "settings.toml"))},
-         {"result_sha256", sha256_hex_of_file(result)},
-         {"code", version.contains("version") ? version["version"].value("code", "") : ""}});
-    fs::rename(partial, seal(cell));
+    write_seal(cell);
     after(cell);
   }
   return failed;
@@ -178,7 +192,7 @@ Outcomes Campaign::outcomes() const {
     Outcome o;
     if (cell.traction) {
       o.fx_peak_N = j.at("fx_peak_N"), o.fz_at_fx_peak_N = j.at("fz_at_fx_peak_N");
-      o.fz_peak_N = j.at("fz_peak_N"), o.coefficient = j.at("traction_coefficient");
+      o.coefficient = j.at("traction_coefficient");
     } else {
       o.sinkage_mm = 1e3 * j.at("max_depth_m").get<double>();
     }

@@ -48,6 +48,8 @@ class Campaign {
     return folder_ / "cells" / (cell.id() + ".json");
   }
   std::vector<std::string> overrides(const Cell& cell) const;
+  void write_seal(const Cell& cell) const;
+  bool can_be_resumed(const Cell& cell) const;
   bool try_cell(const Cell& cell, bool quiet, std::string& why_not) const;
 
   std::filesystem::path folder_;

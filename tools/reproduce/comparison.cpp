@@ -7,6 +7,9 @@
 #include "tools/reproduce/paper.h"
 #include "tools/run/csv_writer.h"
 
+// Bands were set before any run was made: the paper's own spread over its loads, speeds and feet,
+// and round it what unknown geometry, grain size and the scatter of beds leave open.
+
 namespace hoof::tools {
 namespace {
 
@@ -30,21 +33,6 @@ std::string at(const std::string& foot, const std::string& load, const std::stri
 }
 
 const std::string kSpined = "bionic-toe0", kPlain = "bionic-plain-toe0", kSole = "traditional";
-
-double paper_sinkage_mm(const std::string& condition) {
-  for (const PaperSinkage& row : paper_sinkages()) {
-    if (row.condition == condition) return row.sinkage_mm;
-  }
-  return NAN;
-}
-
-const PaperTraction& paper_traction(const std::string& condition) {
-  static const PaperTraction none;
-  for (const PaperTraction& row : paper_tractions()) {
-    if (row.condition == condition) return row;
-  }
-  return none;
-}
 
 class Table {
  public:

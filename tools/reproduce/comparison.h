@@ -13,7 +13,7 @@ namespace hoof::tools {
 /// What one run gave. Of the other kind: zero.
 struct Outcome {
   double sinkage_mm = 0;  // largest displacement since first contact, spines count
-  double fx_peak_N = 0, fz_at_fx_peak_N = 0, fz_peak_N = 0;
+  double fx_peak_N = 0, fz_at_fx_peak_N = 0;  // at that instant
   double coefficient = 0;
 };
 

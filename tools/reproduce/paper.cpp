@@ -1,5 +1,7 @@
 #include "tools/reproduce/paper.h"
 
+#include <cmath>
+
 namespace hoof::tools {
 
 const std::vector<PaperSinkage>& paper_sinkages() {
@@ -50,6 +52,20 @@ const std::vector<PaperTraction>& paper_tractions() {
       {"traction-bionic-toe30-1.12Hz", 0, 0, 0.656},
       {"traction-bionic-toe40-1.12Hz", 0, 0, 0.676}};
   return rows;
+}
+
+double paper_sinkage_mm(const std::string& condition) {
+  for (const PaperSinkage& row : paper_sinkages()) {
+    if (row.condition == condition) return row.sinkage_mm;
+  }
+  return NAN;
+}
+
+PaperTraction paper_traction(const std::string& condition) {
+  for (const PaperTraction& row : paper_tractions()) {
+    if (row.condition == condition) return row;
+  }
+  return {};
 }
 
 }  // namespace hoof::tools

@@ -14,6 +14,8 @@ struct PaperSinkage {
   bool in_words = true;   // else from a percentage that it states
 };
 const std::vector<PaperSinkage>& paper_sinkages();
+/// NaN where the paper states none.
+double paper_sinkage_mm(const std::string& condition);
 
 struct PaperTraction {
   std::string condition;
@@ -22,5 +24,7 @@ struct PaperTraction {
   double coefficient = 0;      // the one over the other
 };
 const std::vector<PaperTraction>& paper_tractions();
+/// All zero where the paper states none.
+PaperTraction paper_traction(const std::string& condition);
 
 }  // namespace hoof::tools

@@ -56,18 +56,9 @@ std::string figure(const std::string& title, const std::string& x_label, const s
   return "<figure>" + draw_lines(title, x_label, y_label, lines) + "</figure>\n";
 }
 
-double paper_mm(const std::string& condition) {
-  for (const PaperSinkage& row : paper_sinkages()) {
-    if (row.condition == condition) return row.sinkage_mm;
-  }
-  return NAN;
-}
-
 double paper_coefficient(const std::string& condition) {
-  for (const PaperTraction& row : paper_tractions()) {
-    if (row.condition == condition) return row.coefficient;
-  }
-  return NAN;
+  const double stated = paper_traction(condition).coefficient;
+  return stated > 0 ? stated : NAN;
 }
 
 std::string figures(const Outcomes& outcomes) {
@@ -87,7 +78,7 @@ std::string figures(const Outcomes& outcomes) {
       curves.push_back(curve);
     }
     html += figure("Sinkage against load, " + speed + " m/s, toes closed", "load, kg",
-                   "sinkage, mm", outcomes, curves, mm, paper_mm);
+                   "sinkage, mm", outcomes, curves, mm, paper_sinkage_mm);
   }
   std::vector<Curve> curves;
   for (const int load : {10, 60}) {
@@ -101,7 +92,7 @@ std::string figures(const Outcomes& outcomes) {
     }
   }
   html += figure("Sinkage against opening, spined foot", "opening of each toe, degrees",
-                 "sinkage, mm", outcomes, curves, mm, paper_mm);
+                 "sinkage, mm", outcomes, curves, mm, paper_sinkage_mm);
   curves.clear();
   for (const std::string step : {"0.45Hz", "1.12Hz"}) {
     Curve curve{step, {}};

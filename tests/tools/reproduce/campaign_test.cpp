@@ -78,6 +78,14 @@ TEST_CASE("reproduce: killed at any moment the same command goes on, to the same
     CHECK(read_file(first) ==
           read_file(whole / "cells" / "traction-bionic-toe0-0.45Hz-bed1" / "result.json"));
   }
+  SECTION("a run that was not sealed when the program was killed is sealed, not run again") {
+    const fs::path seal = first.parent_path().string() + ".json";
+    const std::string before = read_file(seal);
+    fs::remove(seal);
+    CHECK(run_program(campaign(cut)).status == 0);
+    CHECK(fs::last_write_time(first) == written);
+    CHECK(read_file(seal) == before);
+  }
   SECTION("other settings are refused in one line that names the key") {
     const Outcome other = run_program(campaign(cut, {"--set", "experiment.cycles=2"}));
     CHECK(other.status == 2);
