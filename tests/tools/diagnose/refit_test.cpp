@@ -94,6 +94,7 @@ TEST_CASE("refit: a strength in the next valley is found, from the weaker and th
     REQUIRE(std::abs(stuck.x[1]) > 0.1);
     const Fit again = fit_again(fitter, stuck, 20);
     CHECK(again.objective < 0.9 * stuck.objective);
+    // A tenth of the way to the next valley.
     CHECK(std::exp(again.x[1]) == Approx(1).margin(0.02));
   }
 }
