@@ -223,7 +223,9 @@ void Pendulum::prepare_gear() {
 }
 
 void Pendulum::read_goals(double t_s) {
-  bool lost = in_.lost != nullptr && (*in_.lost)[goal_.nearest(t_s)];
+  const auto heard = [t_s](const LostGoals& span) { return span.until_s <= t_s + 1e-9; };
+  const auto span = std::partition_point(in_.lost.begin(), in_.lost.end(), heard);
+  bool lost = span != in_.lost.end() && span->from_s <= t_s + 1e-9;
   for (JointEffect* effect : stages_.goal) lost = effect->goal_lost() || lost;
   if (lost) return;
   const double t = std::max(t_s - delay_s_, in_.time_s.front());

@@ -53,6 +53,11 @@ struct SlopeOffset {
   double start = 0, end = 0;
 };
 
+/// No goal arrives at evaluations of the law from the first time on and before the second.
+struct LostGoals {
+  double from_s = 0, until_s = 0;
+};
+
 /// Of one recording; an empty span is a channel that was not recorded. All as long as time_s.
 struct PendulumInputs {
   std::span<const double> time_s;
@@ -69,8 +74,8 @@ struct PendulumInputs {
   std::span<const SlopeOffset> velocity_goal_bend_rad_s2;
   std::span<const SlopeOffset> torque_ff_bend_Nm_s;
 
-  /// Where known: at which samples the drive went without a new goal; null: all arrived.
-  const std::vector<bool>* lost = nullptr;
+  /// Where known: when the drive went without a new goal, in order; empty: all arrived.
+  std::span<const LostGoals> lost;
 
   /// Measured, for corrections only.
   std::span<const double> position_rad;

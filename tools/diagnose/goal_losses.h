@@ -1,30 +1,40 @@
-// Goals that never reached a drive, told from the torque it commanded.
+// Goals that never reached a drive, told from how the joint went on without them.
 #pragma once
 
 #include <span>
 #include <vector>
 
+#include "sim/rigs/servo_pendulum.h"
+
 namespace hoof::tools {
 
-/// What a drive commands at sample i for the goals of sample k: base[i] + goal[k], clipped.
-struct GoalEvidence {
-  std::span<const double> torque_Nm;  // as commanded or made; NaN: missing
-  std::vector<double> base_Nm;        // of position and speed
-  std::vector<double> goal_Nm;        // of all goals
-  double limit_Nm = 0;
-  double noise_Nm = 0;
+/// A recorded channel that closed loop simulation predicts.
+struct LossChannel {
+  enum Kind { kPosition, kVelocity, kTorque } kind = kPosition;  // rad, rad/s, Nm
+  std::span<const double> values;                                // NaN: missing
+  double noise = 0;
+};
+
+/// A setting that is not known exactly.
+struct LossDoubt {
+  double sim::PendulumSettings::*setting = nullptr;
+  double sigma = 0;  // its unit; of a normal distribution about what is stated, none below zero
 };
 
 struct GoalLosses {
-  std::vector<bool> lost;  // at each sample; empty: none is
-  int bursts = 0;
-  double lost_share = 0;
-  double stays_lost = 0;  // probability that the sample after a lost one is lost
-  double gain = 0;        // half the fall of the sum of squares, bursts paid for
+  std::vector<sim::LostGoals> lost;  // one per burst, in their order
+  double gain = 0;                   // half the fall of the sum of squares, bursts paid for
+
+  double lost_s() const;
 };
 
-/// The most likely sequence of ages of the goal in force (Viterbi, IEEE Trans. Inf. Theory 13
-/// (1967) 260): an age grows by one while goals are lost and falls to zero when one arrives.
-GoalLosses find_losses(const GoalEvidence& evidence);
+/// The most likely spans in which the last goal was held, of a joint under its position loop. The
+/// loop is simulated along with each span that may have begun (Viterbi, IEEE Trans. Inf. Theory 13
+/// (1967) 260, with the joint's state carried along); where goals arrive again, the likeliest goes
+/// on. Doubtful settings are fitted along each answer; what is left then is taken as noise of that
+/// size, and of that memory from sample to sample. No effect acts. Laws kDuty and kImpedance.
+GoalLosses find_losses(const sim::PendulumSettings& settings, const sim::PendulumInputs& inputs,
+                       const sim::PendulumStart& start, std::span<const LossChannel> channels,
+                       std::span<const LossDoubt> doubts, double longest_step_s);
 
 }  // namespace hoof::tools

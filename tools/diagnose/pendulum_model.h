@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -59,7 +60,7 @@ class PendulumModel final : public RigModel {
     int smoothing = -1;                  // the same; of a torque that is an input
     double start_speed_doubt_rad_s = 0;  // 1 sigma; 0: it begins at rest, or nothing tells
     GoalBends goal_bends;
-    GoalLosses losses;
+    std::optional<GoalLosses> losses;   // none: nothing tells, or too little
     std::map<std::string, int> doubts;  // key of the setup to index in doubtful_
 
     bool predicts(const std::string& name) const {
@@ -84,6 +85,7 @@ class PendulumModel final : public RigModel {
   void start_at_rest(Run& run) const;
   void choose_correction(Run& run) const;
   void look_for_losses(Run& run) const;
+  void doubt_losses();
   void simulate(const Run& run, std::span<const double> setup, std::span<const ActiveEffect> active,
                 Rollout rollout, sim::PendulumTrace& trace) const;
   void measure_effort();

@@ -7,7 +7,6 @@
 #include <random>
 
 #include "tools/diagnose/diagnose.h"
-#include "tools/diagnose/goal_losses.h"
 #include "tools/diagnose/pendulum_model.h"
 #include "tools/diagnose/verdict_json.h"
 #include "tools/diagnose/where.h"
@@ -178,34 +177,6 @@ TEST_CASE("diagnose: any number of threads gives the same bytes") {
   one.threads = 1;
   three.threads = 3;
   CHECK(verdict_json(diagnose({set}, one)).dump() == verdict_json(diagnose({set}, three)).dump());
-}
-
-TEST_CASE("lost goals are found where they were, and none where none were") {
-  GoalEvidence e;
-  std::vector<double> torque;
-  std::mt19937_64 random(5);
-  std::normal_distribution<double> noise(0, 0.02);
-  std::vector<bool> lost;
-  double held = 0;
-  for (int i = 0; i < 1000; ++i) {
-    const double goal = 5 * std::sin(0.02 * i);
-    lost.push_back(i % 200 > 150);
-    if (!lost.back()) held = goal;
-    e.goal_Nm.push_back(goal);
-    e.base_Nm.push_back(0.3 * std::cos(0.05 * i));
-    torque.push_back(held + e.base_Nm.back() + noise(random));
-  }
-  e.limit_Nm = 100;
-  e.noise_Nm = 0.02;
-  e.torque_Nm = torque;
-  const GoalLosses found = find_losses(e);
-  REQUIRE(found.lost.size() == 1000);
-  int wrong = 0;
-  for (std::size_t i = 0; i < 1000; ++i) wrong += found.lost[i] != lost[i] ? 1 : 0;
-  CHECK(wrong < 30);  // a burst shows once the goal has moved by the noise: a sample or two each
-  CHECK(found.bursts == 5);
-  for (std::size_t i = 0; i < 1000; ++i) torque[i] = e.goal_Nm[i] + e.base_Nm[i] + noise(random);
-  CHECK(find_losses(e).lost.empty());
 }
 
 TEST_CASE("spans of strength take at most half of the time, about its peaks") {
