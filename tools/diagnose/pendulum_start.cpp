@@ -15,7 +15,7 @@ using sim::PendulumLaw;
 constexpr double kStartSpan_s = 0.02;  // of the contract
 /// At rest is what stays within this many standard deviations of its mean.
 constexpr double kStill = 4;
-constexpr std::size_t kFewest = 5;
+constexpr std::size_t kFewest = 5, kMany = 20;
 /// A torque at its limit tells nothing of the angle.
 constexpr double kFree = 0.95;
 
@@ -162,7 +162,11 @@ void PendulumModel::start_at_rest(Run& run) const {
   double noise = stated_noise(*run.data_set, "position");
   noise = std::max(noise, estimate_noise(recording.time_s, position));
   const std::size_t n = noise > 0 ? still_samples(position, noise) : 0;
-  if (n < kFewest) return;
+  // A slow motion hides in the noise of a few samples, not in the path over more of them.
+  const bool moves =
+      std::abs(run.fitted_start.velocity_rad_s) > kStill * run.start_speed_doubt_rad_s;
+  const bool told = run.start_speed_doubt_rad_s > 0 && n < kMany;
+  if (n < kFewest || (told && moves)) return;
   Mean angle;
   for (std::size_t i = 0; i < n; ++i) {
     if (std::isfinite(position[i])) angle.add(position[i]);

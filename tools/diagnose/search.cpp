@@ -24,6 +24,9 @@ constexpr std::size_t kTakers = 10;
 /// it and with the setup giving way, is no imitation; and so many are followed.
 constexpr double kImitates = 0.5;
 constexpr std::size_t kImitations = 4;
+/// At the end so many are, of those whose objective is behind by more than this.
+constexpr std::size_t kRivals = 6;
+constexpr double kAsGood = 2;
 
 class Search {
  public:
@@ -39,7 +42,8 @@ class Search {
     fit_crosswise();
     take_noise_of_best();
     fit_contenders();
-    fit_best_again(2, 0.95, 1, "contenders");
+    fit_best_again(2, 0.95, 0.96, "contenders");
+    fit_rivals();
     say(1, "done");
     return std::move(result_);
   }
@@ -272,12 +276,7 @@ class Search {
   /// What may do the work of the best single effect: the others beside the setup that it found, its
   /// own work taken away. From the nominal fit, whose setup stands in for the physics that is
   /// missing, such rivals go astray, and what cannot be told apart would look as if it could.
-  void fit_imitations() {
-    std::vector<Fit> singles = ranked();
-    std::erase_if(singles,
-                  [](const Fit& f) { return f.effects.size() != 1 || !f.effects[0]->listed; });
-    if (singles.empty()) return;
-    const Fit& best = singles.front();
+  std::vector<SearchStart> imitations(const Fit& best) {
     Fit base;
     base.x = best.x.head(Layout(fitter_.model(), {}).setup_count());
     base.squares = fitter_.squares(base);
@@ -290,8 +289,50 @@ class Search {
     });
     std::stable_sort(starts.begin(), starts.end(),
                      [](const SearchStart& a, const SearchStart& b) { return a.gain > b.gain; });
+    return starts;
+  }
+
+  std::vector<Fit> listed_singles() const {
+    std::vector<Fit> singles = ranked();
+    std::erase_if(singles,
+                  [](const Fit& f) { return f.effects.size() != 1 || !f.effects[0]->listed; });
+    return singles;
+  }
+
+  void fit_imitations() {
+    const std::vector<Fit> singles = listed_singles();
+    if (singles.empty()) return;
+    std::vector<SearchStart> starts = imitations(singles.front());
     if (starts.size() > kImitations) starts.resize(kImitations);
     follow(starts, 0.46, 0.5, "imitations");
+  }
+
+  /// Once more at the end, beside what is the best now: what a linear step has as its equal and a
+  /// fit does not is likely stuck, and is fitted from other setups too.
+  void fit_rivals() {
+    const std::vector<Fit> singles = listed_singles();
+    if (singles.empty()) return;
+    const Fit& best = singles.front();
+    std::vector<SearchStart> starts = imitations(best);
+    std::erase_if(starts, [&](const SearchStart& c) {
+      return std::any_of(singles.begin(), singles.end(), [&](const Fit& f) {
+        return f.effects == c.effects && f.objective < best.objective + kAsGood;
+      });
+    });
+    if (starts.size() > kRivals) starts.resize(kRivals);
+    follow(starts, 0.96, 0.97, "rivals");
+    std::vector<Fit> rivals;
+    for (const Fit& fit : result_.fits) {
+      const bool followed = std::any_of(starts.begin(), starts.end(), [&fit](const SearchStart& c) {
+        return c.effects == fit.effects;
+      });
+      if (followed && fit.objective > best.objective + kAsGood) rivals.push_back(fit);
+    }
+    run_all(rivals.size(), 0.97, 1, "rivals", [&](std::size_t i) {
+      rivals[i] = fit_again(fitter_, rivals[i], options_.iterations);
+      fitter_.judge(rivals[i]);
+    });
+    for (Fit& fit : rivals) keep(std::move(fit));
   }
 
   /// After a rough fit of each: of several starts of one hypothesis those that are not behind its
@@ -327,9 +368,7 @@ class Search {
 
   void fit_pairs() {
     say(0.5, "pairs");
-    std::vector<Fit> singles = ranked();
-    std::erase_if(singles,
-                  [](const Fit& f) { return f.effects.size() != 1 || !f.effects[0]->listed; });
+    std::vector<Fit> singles = listed_singles();
     if (static_cast<int>(singles.size()) > options_.pair_bases) singles.resize(options_.pair_bases);
     std::vector<SearchStart> pairs;
     for (const Fit& base : singles) {

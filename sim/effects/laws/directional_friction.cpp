@@ -1,5 +1,5 @@
 // Symbols: w output speed, rad/s.
-//   F = coulomb (1 + asymmetry) for w >= 0, coulomb (1 - asymmetry) for w < 0
+//   F = coulomb (1 + asymmetry) for w >= 0, coulomb (1 - asymmetry) for w < 0, no less than zero
 // At rest the direction is the one in which the torque pushes: the plant asks with the sign of the
 // motion that would begin.
 #include "sim/effects/effect.h"
@@ -31,7 +31,7 @@ EffectInfo directional_friction_effect() {
       .summary = "friction that differs between the two directions",
       .equation = "friction = coulomb * (1 + asymmetry) for w >= 0, * (1 - asymmetry) for w < 0",
       .source = "Armstrong, Control of Machines with Friction, 1991, ch. 4",
-      .parameters = {{"asymmetry", "1", -1, 1, 0.3, false, false, {0.3}}},
+      .parameters = {{"asymmetry", "1", -3, 3, 0.3, false, false, {0.3}}},
       .experiment = "the same slow triangle both ways through the same angles",
       .make_joint = [](std::span<const double> values) {
         return std::make_unique<DirectionalFriction>(values);
