@@ -15,7 +15,7 @@ using sim::PendulumLaw;
 constexpr double kStartSpan_s = 0.02;  // of the contract
 /// At rest is what stays within this many standard deviations of its mean.
 constexpr double kStill = 4;
-constexpr std::size_t kFewest = 5, kMany = 20;
+constexpr std::size_t kFewest = 5;
 /// A torque at its limit tells nothing of the angle.
 constexpr double kFree = 0.95;
 
@@ -88,7 +88,7 @@ Polynomial fit_polynomial(std::span<const double> time_s, std::span<const double
 StartOfPath start_of_path(std::span<const double> time_s, std::span<const double> values,
                           double noise) {
   constexpr std::array<std::size_t, 6> kSamples = {6, 9, 14, 20, 30, 45};
-  constexpr double kNone = 1.3;  // deviations
+  constexpr double kNone = 1.3, kFits = 2;  // deviations; of a coefficient, of the sum of squares
   StartOfPath best;
   if (!(noise > 0)) return best;
   for (const std::size_t n : kSamples) {
@@ -102,7 +102,7 @@ StartOfPath start_of_path(std::span<const double> time_s, std::span<const double
           next.freedom < 2 || std::abs(next.c[order + 1]) < kNone * noise * next.sigma[order + 1];
       const double doubt = noise * p.sigma[1] / span_s;
       const bool better = best.speed_doubt == 0 || doubt < best.speed_doubt;
-      if (straight && better && chi2 < 1 + std::sqrt(2 / p.freedom)) {
+      if (straight && better && chi2 < 1 + kFits * std::sqrt(2 / p.freedom)) {
         best = {p.c[0], p.c[1] / span_s, doubt};
       }
       p = std::move(next);
@@ -165,8 +165,7 @@ void PendulumModel::start_at_rest(Run& run) const {
   // A slow motion hides in the noise of a few samples, not in the path over more of them.
   const bool moves =
       std::abs(run.fitted_start.velocity_rad_s) > kStill * run.start_speed_doubt_rad_s;
-  const bool told = run.start_speed_doubt_rad_s > 0 && n < kMany;
-  if (n < kFewest || (told && moves)) return;
+  if (n < kFewest || (run.start_speed_doubt_rad_s > 0 && moves)) return;
   Mean angle;
   for (std::size_t i = 0; i < n; ++i) {
     if (std::isfinite(position[i])) angle.add(position[i]);

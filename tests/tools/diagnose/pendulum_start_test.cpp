@@ -260,6 +260,25 @@ TEST_CASE("pendulum: a joint that begins at rest begins where all its first samp
   }
 }
 
+TEST_CASE("pendulum: a slow motion that hides in the noise of a few samples is no rest") {
+  // A fifth of what the noise is, per sample: a dozen of them look like one angle.
+  const double speed = GENERATE(0.2, -0.2);
+  std::mt19937_64 random(77);
+  std::normal_distribution<double> normal;
+  DataSet set = blank(120);
+  auto& recording = set.recordings[0];
+  for (int i = 0; i < kSamples; ++i) {
+    const double q = speed * kSample_s * i;
+    recording.channels["position_goal"][i] = q;
+    recording.channels["position"][i] = q + 10 * kPositionNoise_rad * normal(random);
+  }
+  const PendulumModel model({set});
+  const int start = doubt(model, "start_speed@run.csv");
+  // Of 20 samples; the path is fitted over 45 at most.
+  const double told = 10 * kPositionNoise_rad * std::sqrt(12 / 20.0) / (20 * kSample_s);
+  CHECK(model.doubtful()[start].value == Approx(speed).margin(4 * told));
+}
+
 TEST_CASE("pendulum: noise of a recorded torque is smoothed as the recording asks, not by a lag") {
   // A third of the torque is the recorder's noise, at every sample; the motor never had it.
   for (const std::uint64_t seed : {61, 62}) {
