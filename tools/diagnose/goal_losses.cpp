@@ -453,7 +453,8 @@ GoalLosses LossSearch::run() {
   bursts = without_idle(bursts);
   learning_ = true;
   GoalLosses losses;
-  losses.gain = cost_of({}) - cost_of(bursts) - kBurst * static_cast<double>(bursts.size());
+  losses.without = cost_of({});
+  losses.gain = losses.without - cost_of(bursts) - kBurst * static_cast<double>(bursts.size());
   for (const Burst& burst : bursts) {
     losses.lost.push_back({clock_.time_s(burst.from * clock_.steps_per_law),
                            clock_.time_s(burst.until * clock_.steps_per_law)});

@@ -24,6 +24,7 @@ struct LossDoubt {
 struct GoalLosses {
   std::vector<sim::LostGoals> lost;  // one per burst, in their order
   double gain = 0;                   // half the fall of the sum of squares, bursts paid for
+  double without = 0;                // half the sum of squares as if all goals had arrived
 
   double lost_s() const;
 };
