@@ -15,8 +15,9 @@ constexpr std::uint32_t kPeripherals = 0x4000'0000, kPeripheralBytes = 0x8'0000;
 constexpr std::uint32_t kSystem = 0xE000'E000, kSystemBytes = 0x1000;
 
 constexpr std::uint32_t kButtonPin = 12;
-// Clock enables: AHB1ENR of port B, APB1ENR of the others.
-constexpr std::uint32_t kPortBClock = 1, kCan1Clock = 25, kCan2Clock = 26, kPowerClock = 28;
+// Clock enables: AHB1ENR of the ports, APB2ENR of USART1, APB1ENR of the others.
+constexpr std::uint32_t kPortAClock = 0, kPortBClock = 1, kCan1Clock = 25, kCan2Clock = 26;
+constexpr std::uint32_t kPowerClock = 28, kUsart2Clock = 17, kUsart1Clock = 4;
 
 }  // namespace
 
@@ -57,6 +58,11 @@ void Board::connect(std::size_t bus, std::unique_ptr<CanWire> wire) {
   can_[bus]->connect(std::move(wire));
 }
 
+void Board::hear(std::size_t bus, const std::string& bytes, std::uint32_t baud) {
+  usart_[bus].receive(bytes, baud);
+  if (powered_ && state_ == State::kAsleep && core_.wakes()) run();
+}
+
 /// The button's loop feeds 3.3 V to the pin; pressed, it is open.
 void Board::press_emergency_stop(bool pressed) {
   port_b_.wire_high(kButtonPin, !pressed);
@@ -89,7 +95,9 @@ void Board::start(hal::ResetCause cause) {
   flash_.reset();
   iwdg_.reset();
   pwr_.reset();
+  port_a_.reset();
   port_b_.reset();
+  for (Usart& usart : usart_) usart.reset();
   for (const auto& can : can_) can->reset();
   core_.reset(kFlash);
   state_ = State::kAsleep;
@@ -182,12 +190,18 @@ Peripheral& Board::peripheral_at(std::uint32_t address, std::uint32_t& offset) {
   switch (address & ~0x3FFu) {
     case 0x4000'3000:
       return iwdg_;
+    case 0x4000'4400:
+      return with_clock(usart_[1], rcc_.apb1_on(kUsart2Clock));
+    case 0x4001'1000:
+      return with_clock(usart_[0], rcc_.apb2_on(kUsart1Clock));
     case 0x4000'6400:
       return with_clock(*can_[0], rcc_.apb1_on(kCan1Clock));
     case 0x4000'6800:
       return with_clock(*can_[1], rcc_.apb1_on(kCan2Clock) && rcc_.apb1_on(kCan1Clock));
     case 0x4000'7000:
       return with_clock(pwr_, rcc_.apb1_on(kPowerClock));
+    case 0x4002'0000:
+      return with_clock(port_a_, rcc_.ahb1_on(kPortAClock));
     case 0x4002'0400:
       return with_clock(port_b_, rcc_.ahb1_on(kPortBClock));
     case 0x4002'3800:

@@ -18,6 +18,7 @@
 #include "tools/emulator/pwr.h"
 #include "tools/emulator/rcc.h"
 #include "tools/emulator/system_tick.h"
+#include "tools/emulator/usart.h"
 
 namespace hoof::tools::emulator {
 
@@ -48,6 +49,9 @@ class Board final : private RegisterSpace {
   Cycles next_tick() const { return system_tick_.next_tick(); }
 
   void connect(std::size_t bus, std::unique_ptr<CanWire> wire);
+  /// Bytes come on the serial line in place of a bus; the image runs where they wake it.
+  void hear(std::size_t bus, const std::string& bytes, std::uint32_t baud = 1'000'000);
+  std::string take_said(std::size_t bus) { return usart_[bus].take_sent(); }
   void press_emergency_stop(bool pressed);
   void set_supply_low(bool low) { pwr_.set_supply_low(low); }
   void set_clock_faults(const ClockFaults& faults) { rcc_.set_faults(faults); }
@@ -85,9 +89,11 @@ class Board final : private RegisterSpace {
   FlashController flash_;
   Iwdg iwdg_{time_};
   Pwr pwr_;
-  Gpio port_b_;
+  Gpio port_a_{Gpio::kPortA}, port_b_{Gpio::kPortB};
   CanFilters filters_;
   std::array<std::unique_ptr<BxCan>, kBuses> can_;
+  std::array<Usart, kBuses> usart_{Usart{1, 37, nvic_, [this] { return rcc_.apb2_MHz(); }},
+                                   Usart{2, 38, nvic_, [this] { return rcc_.apb1_MHz(); }}};
   State state_ = State::kAsleep;
   bool powered_ = false;
   std::uint32_t resets_ = 0;

@@ -14,7 +14,17 @@ class Gpio final : public Peripheral {
  public:
   enum class Mode : std::uint8_t { kInput = 0, kOutput, kAlternate, kAnalog };
 
-  const char* name() const override { return "GPIO B"; }
+  /// MODER, OSPEEDR and PUPDR as after a reset: some pins are the debugger's.
+  struct Fresh {
+    const char* name;
+    std::uint32_t modes, speeds, pulls;
+  };
+  static constexpr Fresh kPortA = {"GPIO A", 0xA800'0000, 0x0C00'0000, 0x6400'0000};
+  static constexpr Fresh kPortB = {"GPIO B", 0x0000'0280, 0x0000'00C0, 0x0000'0100};
+
+  explicit Gpio(const Fresh& fresh) : fresh_(fresh) {}
+
+  const char* name() const override { return fresh_.name; }
 
   std::uint32_t read(std::uint32_t offset) override {
     if (offset == kInputData) return levels();
@@ -32,9 +42,9 @@ class Gpio final : public Peripheral {
   }
   void reset() override {
     registers_ = {};
-    registers_[kModes / 4] = 0x0000'0280;
-    registers_[kSpeeds / 4] = 0x0000'00C0;
-    registers_[kPulls / 4] = 0x0000'0100;
+    registers_[kModes / 4] = fresh_.modes;
+    registers_[kSpeeds / 4] = fresh_.speeds;
+    registers_[kPulls / 4] = fresh_.pulls;
   }
 
   /// What is wired to a pin: high, or nothing.
@@ -71,6 +81,7 @@ class Gpio final : public Peripheral {
     return value;
   }
 
+  const Fresh& fresh_;
   std::array<std::uint32_t, 10> registers_{};
   std::uint32_t driven_high_ = 0;
 };

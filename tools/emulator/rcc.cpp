@@ -123,6 +123,11 @@ std::uint32_t Rcc::apb1_MHz() const {
   return divider < 4 ? core_MHz_ : core_MHz_ >> (divider - 3);
 }
 
+std::uint32_t Rcc::apb2_MHz() const {
+  const std::uint32_t divider = configuration_ >> 13 & 7;
+  return divider < 4 ? core_MHz_ : core_MHz_ >> (divider - 3);
+}
+
 std::uint32_t Rcc::read(std::uint32_t offset) {
   switch (offset) {
     case kControl:

@@ -34,8 +34,10 @@ class Rcc final : public Peripheral {
 
   std::uint32_t core_MHz() const { return core_MHz_; }
   std::uint32_t apb1_MHz() const;
+  std::uint32_t apb2_MHz() const;
   bool ahb1_on(std::uint32_t bit) const { return (ahb1_ >> bit & 1) != 0; }
   bool apb1_on(std::uint32_t bit) const { return (apb1_ >> bit & 1) != 0; }
+  bool apb2_on(std::uint32_t bit) const { return (apb2_ >> bit & 1) != 0; }
   bool from_crystal() const;
 
  private:

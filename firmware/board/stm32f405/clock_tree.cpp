@@ -58,11 +58,11 @@ Clocks start_clocks(RccRegisters& rcc, PwrRegisters& pwr, FlashRegisters& flash)
   pwr.CR.set(pwr::kFullVoltage);
   if (start_crystal(rcc) && start_pll(rcc, flash, kPllOf8MHz)) {
     rcc.CR.set(rcc::kCrystalWatched);
-    return {ClockSource::kCrystalPll, 168'000'000, 42'000'000};
+    return {ClockSource::kCrystalPll, 168'000'000, 42'000'000, 84'000'000};
   }
   fall_back_to_internal(rcc);
   if (start_pll(rcc, flash, kPllOf16MHz)) {
-    return {ClockSource::kInternalPll, 168'000'000, 42'000'000};
+    return {ClockSource::kInternalPll, 168'000'000, 42'000'000, 84'000'000};
   }
   fall_back_to_internal(rcc);
   return {};

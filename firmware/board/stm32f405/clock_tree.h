@@ -21,6 +21,7 @@ struct Clocks {
   ClockSource source = ClockSource::kInternal;
   std::uint32_t core_Hz = 16'000'000;
   std::uint32_t apb1_Hz = 16'000'000;
+  std::uint32_t apb2_Hz = 16'000'000;
 };
 
 /// Every wait in here ends after a counted number of looks. Where the crystal runs, its failing

@@ -21,7 +21,7 @@ void enable_interrupts(NvicRegisters& nvic, ScbRegisters& scb) {
   for (const Interrupt interrupt :
        {Interrupt::kCan1Transmit, Interrupt::kCan1Receive0, Interrupt::kCan1Receive1,
         Interrupt::kCan1Status, Interrupt::kCan2Transmit, Interrupt::kCan2Receive0,
-        Interrupt::kCan2Receive1, Interrupt::kCan2Status}) {
+        Interrupt::kCan2Receive1, Interrupt::kCan2Status, Interrupt::kUsart1, Interrupt::kUsart2}) {
     enable(nvic, interrupt);
   }
   asm volatile("cpsie i" ::: "memory");
@@ -32,28 +32,34 @@ void hoof_tick() {
   system().clock.on_tick();
 }
 void hoof_can1_transmit() {
-  system().bus0.on_transmit_interrupt();
+  system().can0.on_transmit_interrupt();
 }
 void hoof_can1_receive0() {
-  system().bus0.on_receive_interrupt(0, system().clock.now_ns());
+  system().can0.on_receive_interrupt(0, system().clock.now_ns());
 }
 void hoof_can1_receive1() {
-  system().bus0.on_receive_interrupt(1, system().clock.now_ns());
+  system().can0.on_receive_interrupt(1, system().clock.now_ns());
 }
 void hoof_can1_status() {
-  system().bus0.on_status_interrupt();
+  system().can0.on_status_interrupt();
 }
 void hoof_can2_transmit() {
-  system().bus1.on_transmit_interrupt();
+  system().can1.on_transmit_interrupt();
 }
 void hoof_can2_receive0() {
-  system().bus1.on_receive_interrupt(0, system().clock.now_ns());
+  system().can1.on_receive_interrupt(0, system().clock.now_ns());
 }
 void hoof_can2_receive1() {
-  system().bus1.on_receive_interrupt(1, system().clock.now_ns());
+  system().can1.on_receive_interrupt(1, system().clock.now_ns());
 }
 void hoof_can2_status() {
-  system().bus1.on_status_interrupt();
+  system().can1.on_status_interrupt();
+}
+void hoof_usart1() {
+  system().line0.on_interrupt(system().serial0, system().clock.now_ns());
+}
+void hoof_usart2() {
+  system().line1.on_interrupt(system().serial1, system().clock.now_ns());
 }
 }
 

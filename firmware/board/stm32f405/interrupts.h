@@ -19,6 +19,8 @@ void hoof_can2_transmit();
 void hoof_can2_receive0();
 void hoof_can2_receive1();
 void hoof_can2_status();
+void hoof_usart1();
+void hoof_usart2();
 }
 
 }  // namespace hoof::firmware::stm32f405

@@ -12,6 +12,7 @@
 #include "firmware/board/stm32f405/registers/iwdg.h"
 #include "firmware/board/stm32f405/registers/pwr.h"
 #include "firmware/board/stm32f405/registers/rcc.h"
+#include "firmware/board/stm32f405/registers/usart.h"
 #include "hal/bxcan/registers.h"
 
 namespace hoof::firmware::stm32f405 {
@@ -32,6 +33,15 @@ inline hal::bxcan::Registers& can2_registers() {
 }
 inline PwrRegisters& pwr_registers() {
   return at<PwrRegisters>(0x4000'7000);
+}
+inline UsartRegisters& usart2_registers() {
+  return at<UsartRegisters>(0x4000'4400);
+}
+inline UsartRegisters& usart1_registers() {
+  return at<UsartRegisters>(0x4001'1000);
+}
+inline GpioRegisters& port_a() {
+  return at<GpioRegisters>(0x4002'0000);
 }
 inline GpioRegisters& port_b() {
   return at<GpioRegisters>(0x4002'0400);
@@ -61,6 +71,8 @@ enum class Interrupt : std::uint8_t {
   kCan1Receive0 = 20,
   kCan1Receive1 = 21,
   kCan1Status = 22,
+  kUsart1 = 37,
+  kUsart2 = 38,
   kCan2Transmit = 63,
   kCan2Receive0 = 64,
   kCan2Receive1 = 65,

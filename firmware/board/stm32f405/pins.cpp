@@ -7,7 +7,7 @@ constexpr std::uint32_t kAlternate = 2;
 constexpr std::uint32_t kFast = 2;
 constexpr std::uint32_t kPullUp = 1;
 constexpr std::uint32_t kPullDown = 2;
-constexpr std::uint32_t kCanFunction = 9;
+constexpr std::uint32_t kCanFunction = 9, kSerialFunction = 7;
 
 void set_field(hal::Register& target, std::uint32_t width, std::uint32_t index,
                std::uint32_t value) {
@@ -16,18 +16,22 @@ void set_field(hal::Register& target, std::uint32_t width, std::uint32_t index,
 }
 
 /// Pull first, function last: the pin never drives or reads anything by chance.
-void configure_can(GpioRegisters& port, Pin pin) {
-  set_field(port.PUPDR, 2, pin.number, kPullUp);  // recessive where no transceiver is
+void configure(GpioRegisters& port, Pin pin, std::uint32_t function) {
+  set_field(port.PUPDR, 2, pin.number, kPullUp);  // recessive, idle, where nothing is connected
   set_field(port.OSPEEDR, 2, pin.number, kFast);
-  set_field(port.AFR[pin.number / 8], 4, pin.number % 8, kCanFunction);
+  set_field(port.AFR[pin.number / 8], 4, pin.number % 8, function);
   set_field(port.MODER, 2, pin.number, kAlternate);
 }
 
 }  // namespace
 
-void configure_pins(GpioRegisters& port_b) {
+void configure_pins(GpioRegisters& port_a, GpioRegisters& port_b) {
   for (const Pin pin : {kCan1ReceivePin, kCan1TransmitPin, kCan2ReceivePin, kCan2TransmitPin}) {
-    configure_can(port_b, pin);
+    configure(port_b, pin, kCanFunction);
+  }
+  for (const Pin pin :
+       {kSerial0TransmitPin, kSerial0ReceivePin, kSerial1TransmitPin, kSerial1ReceivePin}) {
+    configure(port_a, pin, kSerialFunction);
   }
   set_field(port_b.PUPDR, 2, kEmergencyStopPin.number, kPullDown);
   set_field(port_b.MODER, 2, kEmergencyStopPin.number, 0);

@@ -1,4 +1,4 @@
-// Which pins of port B do what.
+// Which pins do what.
 #pragma once
 
 #include <cstdint>
@@ -12,15 +12,21 @@ struct Pin {
   constexpr std::uint32_t bit() const { return 1u << number; }
 };
 
-// Alternate function 9 (DS8626, table 9).
+// Port B, alternate function 9 (DS8626, table 9).
 inline constexpr Pin kCan1ReceivePin{8};
 inline constexpr Pin kCan1TransmitPin{9};
 inline constexpr Pin kCan2ReceivePin{5};
 inline constexpr Pin kCan2TransmitPin{6};
+// Port A, alternate function 7: the serial lines in place of CAN1 and CAN2.
+inline constexpr Pin kSerial0TransmitPin{9};
+inline constexpr Pin kSerial0ReceivePin{10};
+inline constexpr Pin kSerial1TransmitPin{2};
+inline constexpr Pin kSerial1ReceivePin{3};
+
 /// Also the break input of TIM1, so that one wire can stop this firmware and, one day, a timer.
 inline constexpr Pin kEmergencyStopPin{12};
 
-/// @pre the port has its clock
-void configure_pins(GpioRegisters& port_b);
+/// @pre the ports have their clocks
+void configure_pins(GpioRegisters& port_a, GpioRegisters& port_b);
 
 }  // namespace hoof::firmware::stm32f405

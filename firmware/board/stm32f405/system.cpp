@@ -20,6 +20,13 @@ System the_system{
     FootBoard(rcc_registers(), pwr_registers(), port_b(), the_system.watchdog),
     BxCanBus(can1_registers()),
     BxCanBus(can2_registers()),
+    SerialLine(usart1_registers()),
+    SerialLine(usart2_registers()),
+    SerialBus(the_system.line0),
+    SerialBus(the_system.line1),
+    {},
+    FootBus(the_system.can0, the_system.serial0, the_system.gate),
+    FootBus(the_system.can1, the_system.serial1, the_system.gate),
 };
 
 }  // namespace
@@ -33,26 +40,31 @@ void System::start() {
   const Clocks clocks = start_clocks(rcc_registers(), pwr_registers(), flash_registers());
   board.start();
   clock.start(clocks.core_Hz);
-  rcc_registers().AHB1ENR.set(rcc::kPortB);
-  rcc_registers().APB1ENR.set(rcc::kCan1 | rcc::kCan2);
-  rcc_registers().APB1ENR.read();  // a peripheral answers some cycles later (ES0182)
-  configure_pins(port_b());
+  rcc_registers().AHB1ENR.set(rcc::kPortA | rcc::kPortB);
+  rcc_registers().APB1ENR.set(rcc::kCan1 | rcc::kCan2 | rcc::kUsart2);
+  rcc_registers().APB2ENR.set(rcc::kUsart1);
+  rcc_registers().APB2ENR.read();  // a peripheral answers some cycles later (ES0182)
+  configure_pins(port_a(), port_b());
   set_can_filters(can1_registers());
   if (const std::optional<std::uint32_t> timing = can_bit_timing(clocks)) {
-    bus0.start(*timing);
-    bus1.start(*timing);
+    can0.start(*timing);
+    can1.start(*timing);
   }
+  line0.start(clocks.apb2_Hz);
+  line1.start(clocks.apb1_Hz);
   enable_interrupts(nvic_registers(), scb_registers());
 }
 
 void System::rest() {
   const std::int64_t now_ns = clock.now_ns();
-  bus0.maintain(now_ns);
-  bus1.maintain(now_ns);
+  can0.maintain(now_ns);
+  can1.maintain(now_ns);
   // With interrupts masked: one that came between looking and sleeping would else be slept over.
   // WFI wakes up all the same.
   const hal::InterruptLock lock;
-  if (!bus0.frame_waiting() && !bus1.frame_waiting()) asm volatile("dsb\n\twfi" ::: "memory");
+  const bool waiting = can0.frame_waiting() || can1.frame_waiting() || serial0.frame_waiting() ||
+                       serial1.frame_waiting();
+  if (!waiting) asm volatile("dsb\n\twfi" ::: "memory");
 }
 
 }  // namespace hoof::firmware::stm32f405

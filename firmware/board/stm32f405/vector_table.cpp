@@ -37,6 +37,8 @@ constexpr VectorTable make_vector_table() {
   serve(Interrupt::kCan2Receive0, hoof_can2_receive0);
   serve(Interrupt::kCan2Receive1, hoof_can2_receive1);
   serve(Interrupt::kCan2Status, hoof_can2_status);
+  serve(Interrupt::kUsart1, hoof_usart1);
+  serve(Interrupt::kUsart2, hoof_usart2);
   return table;
 }
 

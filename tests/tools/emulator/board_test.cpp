@@ -6,6 +6,7 @@
 #include <deque>
 
 #include "firmware/protocol/codec.h"
+#include "hal/slcan/line.h"
 
 using namespace hoof::tools::emulator;
 using namespace hoof;
@@ -176,6 +177,70 @@ TEST_CASE("board: without its crystal, or without its PLL, it lives and stays of
     CHECK(bench.seen[0].empty());
     CHECK(bench.seen[1].empty());
   }
+}
+
+TEST_CASE("board: its serial line in place of a bus, until somebody speaks on CAN") {
+  Bench bench;
+  bench.board.power_on();
+  bench.run_ms(20);
+  bench.board.hear(0, "\rV\r");
+  CHECK(bench.board.take_said(0) == "\rV0100\r");
+  const std::size_t by_can = bench.seen[0].size();
+  bench.board.hear(0, "O\r");
+  CHECK(bench.board.take_said(0) == "\r");
+  bench.run_ms(300);
+  CHECK(bench.seen[0].size() == by_can);
+  // Heartbeats, every 100 ms, as lines.
+  const std::string said = bench.board.take_said(0);
+  std::size_t lines = 0, beats = 0, start = 0;
+  for (std::size_t end; (end = said.find('\r', start)) != std::string::npos; start = end + 1) {
+    hal::CanFrame frame;
+    const auto* text = reinterpret_cast<const std::uint8_t*>(said.data() + start);
+    ++lines;
+    REQUIRE(hal::slcan::frame_of({text, end - start}, frame));
+    protocol::Heartbeat h;
+    beats += decode(frame, h) == protocol::DecodeResult::kOk ? 1 : 0;
+  }
+  CHECK(lines >= 3);
+  CHECK(beats == 3);
+  // At another baud rate nothing is understood.
+  bench.board.hear(0, "V\r", 115'200);
+  CHECK(bench.board.take_said(0).find('V') == std::string::npos);
+  bench.board.hear(0, "\r");
+  bench.board.take_said(0);
+  // Somebody speaks on the other bus: both lines are shut, the frames go out by CAN again.
+  hal::CanFrame frame;
+  frame.id = protocol::spec(protocol::Message::kEmergencyStop).id;
+  frame.length = 8;
+  bench.coming[0].push_back(frame);
+  bench.run_ms(300);
+  CHECK(bench.seen[0].size() > by_can);
+  bench.board.take_said(0);
+  bench.board.hear(0, "O\r");
+  CHECK(bench.board.take_said(0) == "\a");
+  bench.run_ms(150);
+  CHECK(bench.board.take_said(0).empty());
+  bench.board.hear(1, "O\r");
+  CHECK(bench.board.take_said(1) == "\a");
+  // A reset opens them again.
+  bench.board.reset(hal::ResetCause::kPin);
+  bench.run_ms(20);
+  bench.board.hear(1, "O\r");
+  CHECK(bench.board.take_said(1) == "\r");
+}
+
+TEST_CASE("board: without its crystal it is off CAN, and can be spoken to by its serial line") {
+  const bool pll_dead = GENERATE(false, true);
+  CAPTURE(pll_dead);
+  Bench bench;
+  bench.board.set_clock_faults({.crystal_dead = true, .pll_dead = pll_dead});
+  bench.board.power_on();
+  bench.run_ms(20);
+  bench.board.hear(0, "O\r");
+  CHECK(bench.board.take_said(0).substr(0, 1) == "\r");  // then a heartbeat that was due
+  bench.run_ms(250);
+  CHECK(bench.seen[0].empty());
+  CHECK(bench.board.take_said(0).find("t050") != std::string::npos);  // the next
 }
 
 TEST_CASE("board: a register without a model is named, with the place that asked for it") {

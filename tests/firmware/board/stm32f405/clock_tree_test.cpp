@@ -70,6 +70,7 @@ TEST_CASE("clocks: crystal and PLL give 168 MHz, and the crystal is watched") {
   CHECK((sim.rcc.CFGR.stored() >> 10 & 7) == 5);  // APB1 by 4: 42 MHz
   CHECK((sim.rcc.CFGR.stored() >> 13 & 7) == 4);  // APB2 by 2: 84 MHz
   CHECK(clocks.apb1_Hz == 42'000'000);
+  CHECK(clocks.apb2_Hz == 84'000'000);
   CHECK((sim.rcc.CR.stored() & rcc::kCrystalWatched) != 0);
   CHECK_FALSE(sim.fast_core_on_fast_flash);
   CHECK((sim.pwr.CR.stored() & pwr::kFullVoltage) != 0);
@@ -116,6 +117,7 @@ TEST_CASE("clocks: where nothing works, 16 MHz as after reset, after a bounded n
   CHECK(clocks.source == ClockSource::kInternal);
   CHECK(clocks.core_Hz == 16'000'000);
   CHECK(clocks.apb1_Hz == 16'000'000);
+  CHECK(clocks.apb2_Hz == 16'000'000);
   CHECK(sim.running() == 0);
   CHECK((sim.rcc.CFGR.stored() & 0xFCF0) == 0);  // no divider
   CHECK((sim.rcc.CR.stored() & rcc::kPllOn) == 0);

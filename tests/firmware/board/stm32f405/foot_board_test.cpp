@@ -20,7 +20,7 @@ struct Rig {
   tests::SimulatedRegisters access;
   RccRegisters rcc;
   PwrRegisters pwr;
-  GpioRegisters port;
+  GpioRegisters port_a, port;
   IwdgRegisters iwdg;
   Watchdog watchdog{iwdg};
   FootBoard board{rcc, pwr, port, watchdog};
@@ -60,7 +60,7 @@ TEST_CASE("board: each cause of a reset, with what the part sets besides") {
 
 TEST_CASE("board: the e-stop's pin is low when pressed, cut or shorted to ground, pulled down") {
   Rig rig;
-  configure_pins(rig.port);
+  configure_pins(rig.port_a, rig.port);
   rig.port.IDR.store(0xFFFF);
   CHECK_FALSE(rig.board.emergency_stop_pressed());
   rig.port.IDR.store(0xFFFF & ~(1u << 12));
@@ -75,7 +75,7 @@ TEST_CASE("board: the CAN pins have their function, the pins of the debugger kee
   Rig rig;
   rig.port.MODER.store(0x0000'0280);  // after reset: PB3, PB4 are the debugger's
   rig.port.PUPDR.store(0x0000'0100);
-  configure_pins(rig.port);
+  configure_pins(rig.port_a, rig.port);
   for (const unsigned pin : {5u, 6u, 8u, 9u}) {
     CAPTURE(pin);
     CHECK((rig.port.MODER.stored() >> (2 * pin) & 3) == 2);
@@ -84,6 +84,21 @@ TEST_CASE("board: the CAN pins have their function, the pins of the debugger kee
   }
   CHECK((rig.port.MODER.stored() & 0x3FF) == 0x280);
   CHECK((rig.port.PUPDR.stored() & 0x3FF) == 0x100);
+}
+
+TEST_CASE("board: the serial pins have their function, SWD and USB keep theirs") {
+  Rig rig;
+  rig.port_a.MODER.store(0xA800'0000);  // after reset: PA13 to PA15 are the debugger's
+  rig.port_a.PUPDR.store(0x6400'0000);
+  configure_pins(rig.port_a, rig.port);
+  for (const unsigned pin : {2u, 3u, 9u, 10u}) {
+    CAPTURE(pin);
+    CHECK((rig.port_a.MODER.stored() >> (2 * pin) & 3) == 2);
+    CHECK((rig.port_a.AFR[pin / 8].stored() >> (4 * (pin % 8)) & 15) == 7);
+    CHECK((rig.port_a.PUPDR.stored() >> (2 * pin) & 3) == 1);
+  }
+  CHECK((rig.port_a.MODER.stored() >> 22) == 0xA800'0000 >> 22);
+  CHECK((rig.port_a.PUPDR.stored() >> 22) == 0x6400'0000 >> 22);
 }
 
 TEST_CASE("board: the supply's early warning, at the detector's highest level") {
