@@ -28,16 +28,21 @@ hal::RamFlash flash_with(const firmware::app::Parameters& parameters) {
   return flash;
 }
 
+Cycles run_to_start(Board& board) {
+  board.power_on();
+  // The second heartbeat comes with the first tick a period after the first, the others a period
+  // on.
+  const Cycles second = board.now() + kHeartbeatPeriod;
+  while (board.next_tick() < second) board.advance_to(board.next_tick());
+  const Cycles start = board.next_tick() + (kHeartbeatCounts - 1) * kHeartbeatPeriod;
+  while (board.next_tick() < start) board.advance_to(board.next_tick());
+  return start;
+}
+
 EmulatedFirmware::EmulatedFirmware(const ElfFile& image, hal::RamFlash flash, Buses buses,
                                    Buses listeners, const hal::Clock& clock)
     : flash_(std::move(flash)), board_(image, flash_), listeners_(listeners), clock_(clock) {
-  board_.power_on();
-  // The second heartbeat comes with the first tick a period after the first, the others a period
-  // on.
-  const Cycles second = board_.now() + kHeartbeatPeriod;
-  while (board_.next_tick() < second) board_.advance_to(board_.next_tick());
-  start_ = board_.next_tick() + (kHeartbeatCounts - 1) * kHeartbeatPeriod;
-  while (board_.next_tick() < start_) board_.advance_to(board_.next_tick());
+  start_ = run_to_start(board_);
   for (std::size_t bus = 0; bus < Board::kBuses; ++bus) {
     board_.connect(bus, wire_of(*buses[bus]));
   }

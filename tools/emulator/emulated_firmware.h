@@ -16,12 +16,16 @@ namespace hoof::tools::emulator {
 /// stores parameters. @throws std::invalid_argument where a value is out of its range
 hal::RamFlash flash_with(const firmware::app::Parameters& parameters);
 
+/// Powers the board on and lets it run alone for 1.6 s, until its 17th heartbeat is due, which is
+/// the first once more: time 0 of a run, as it is for a loop that starts in process.
+/// @return board time then
+Cycles run_to_start(Board& board);
+
 class EmulatedFirmware final : public bridge::FirmwareNode {
  public:
   using Buses = std::array<hal::CanBus*, Board::kBuses>;
 
-  /// Powers the board on and lets it run alone for 1.6 s, until its 17th heartbeat is due, which is
-  /// the first once more: that is time 0 of the run, as it is for a loop that starts in process.
+  /// Time 0 of the run is where run_to_start() ends.
   /// @param buses of the board  @param listeners connections of their own, to know what it tells
   EmulatedFirmware(const ElfFile& image, hal::RamFlash flash, Buses buses, Buses listeners,
                    const hal::Clock& clock);
