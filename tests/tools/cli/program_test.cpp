@@ -128,6 +128,15 @@ TEST_CASE("every command has help with an example") {
   CHECK(commands >= 2);
 }
 
+TEST_CASE("hoof version and hoof --version say what was built") {
+  const Outcome command = hoof_program("version", "2>/dev/null");
+  const Outcome flag = hoof_program("--version", "2>/dev/null");
+  CHECK(command.status == 0);
+  CHECK(command.text.rfind("code ", 0) == 0);
+  CHECK(flag.status == 0);
+  CHECK(flag.text == command.text);
+}
+
 TEST_CASE("a report is made again and its path printed") {
   const hoof::tests::ScratchFolder scratch;
   hoof::tests::write_synthetic_run(scratch.path(), 20);
