@@ -16,14 +16,24 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "hal/bxcan/receive_queue.h"
 #include "hal/bxcan/registers.h"
 #include "hal/can_bus.h"
+#include "hal/receive_queue.h"
 
 namespace hoof::hal::bxcan {
 
+/// A frame as the peripheral holds it, with its arrival: a quarter of a CanFrame.
+struct ReceivedFrame {
+  std::uint32_t identifier = 0;
+  std::uint32_t length = 0;
+  std::uint32_t low = 0;
+  std::uint32_t high = 0;
+  std::int64_t stamp_ns = 0;
+};
+
 class BxCanBus final : public CanBus {
  public:
+  using Queue = ReceiveQueue<ReceivedFrame, 32, 3>;
   static constexpr std::size_t kUrgentFifo = 0;
   static constexpr std::size_t kOrdinaryFifo = 1;
   static constexpr std::int64_t kFirstBackOff_ns = 100'000'000;
@@ -67,7 +77,7 @@ class BxCanBus final : public CanBus {
   void take_frame(std::size_t fifo, std::int64_t now_ns);
 
   Registers& registers_;
-  ReceiveQueue queue_;
+  Queue queue_;
   State state_ = State::kDown;
   std::int64_t joined_ns_ = 0;
   std::int64_t rejoin_ns_ = 0;

@@ -18,6 +18,7 @@
 #include "hal/can_bus.h"
 #include "hal/can_frame_check.h"
 #include "hal/interrupt_lock.h"
+#include "hal/receive_queue.h"
 #include "hal/slcan/line.h"
 
 namespace hoof::hal::slcan {
@@ -27,7 +28,7 @@ namespace hoof::hal::slcan {
 template <typename Port>
 class SlcanBus final : public CanBus {
  public:
-  static constexpr std::size_t kQueue = 16;  // frames; one more is dropped and counted
+  static constexpr std::uint32_t kQueue = 16;  // frames; one more is dropped and counted
 
   explicit SlcanBus(Port& port) : port_(port) {}
 
@@ -41,9 +42,7 @@ class SlcanBus final : public CanBus {
   bool open() const {
     return open_.load(std::memory_order_relaxed) && !shut_.load(std::memory_order_relaxed);
   }
-  bool frame_waiting() const {
-    return written_.load(std::memory_order_relaxed) != taken_.load(std::memory_order_relaxed);
-  }
+  bool frame_waiting() const { return !queue_.empty(); }
 
   /// kDown while it is not open.
   SendResult send(const CanFrame& frame) override;
@@ -68,8 +67,7 @@ class SlcanBus final : public CanBus {
 
   Port& port_;
   std::atomic<bool> open_{false}, shut_{false};
-  std::array<Held, kQueue> queue_{};
-  std::atomic<std::uint32_t> written_{0}, taken_{0};
+  ReceiveQueue<Held, kQueue, 0> queue_;
   std::uint64_t sent_ = 0, received_ = 0;  // by the main loop
 
   // By the interrupt.
@@ -133,17 +131,11 @@ template <typename Port>
 bool SlcanBus<Port>::take_frame(std::int64_t now_ns) {
   CanFrame frame;
   if (!slcan::frame_of(line_.bytes(), frame)) return false;
-  const std::uint32_t written = written_.load(std::memory_order_relaxed);
-  if (written - taken_.load(std::memory_order_relaxed) >= kQueue) {
-    ++dropped_;
-    return false;
-  }
-  Held& held = queue_[written % kQueue];
-  held = {frame.id, frame.extended, frame.remote, frame.length, {}, now_ns};
+  Held held{frame.id, frame.extended, frame.remote, frame.length, {}, now_ns};
   for (std::size_t i = 0; i < held.data.size(); ++i) held.data[i] = frame.data[i];
-  std::atomic_signal_fence(std::memory_order_release);
-  written_.store(written + 1, std::memory_order_relaxed);
-  return true;
+  if (queue_.put(held, false)) return true;
+  ++dropped_;
+  return false;
 }
 
 /// An answer that finds no room is lost: frames matter more, and the other side does not wait.
@@ -168,10 +160,8 @@ SendResult SlcanBus<Port>::send(const CanFrame& frame) {
 
 template <typename Port>
 bool SlcanBus<Port>::receive(CanFrame& frame) {
-  if (!frame_waiting()) return false;
-  std::atomic_signal_fence(std::memory_order_acquire);
-  const std::uint32_t taken = taken_.load(std::memory_order_relaxed);
-  const Held& held = queue_[taken % kQueue];
+  Held held;
+  if (!queue_.take(held)) return false;
   frame = {};
   frame.id = held.id;
   frame.extended = held.extended;
@@ -179,8 +169,6 @@ bool SlcanBus<Port>::receive(CanFrame& frame) {
   frame.length = held.length;
   for (std::size_t i = 0; i < held.data.size(); ++i) frame.data[i] = held.data[i];
   frame.stamp_ns = held.stamp_ns;
-  std::atomic_signal_fence(std::memory_order_release);
-  taken_.store(taken + 1, std::memory_order_relaxed);
   ++received_;
   return true;
 }

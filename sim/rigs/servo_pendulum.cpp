@@ -10,7 +10,6 @@
 namespace hoof::sim {
 namespace {
 
-constexpr double kCounts = 256.0 * 885.0;  // of the duty law's gain: duty = gain counts / this
 /// A gear that only has play is stiff; its teeth swing with this angular frequency, well damped.
 /// Far above what a position loop reaches, low enough for the step.
 constexpr double kToothSwing_rad_s = 900;
@@ -242,7 +241,7 @@ void Pendulum::evaluate_law(double t_s) {
   read_goals(t_s);
   const double error = position_goal_ - reading_rad(q_);
   if (s_.law == PendulumLaw::kDuty) {
-    duty_ = std::clamp(s_.kp_duty * s_.counts_per_rad * error / kCounts, -1.0, 1.0);
+    duty_ = std::clamp(s_.kp_duty * s_.counts_per_rad * error / kDutyCounts, -1.0, 1.0);
     volt_ = supply_.present() ? supply_.at(t_s) : s_.supply_V;
     return;
   }

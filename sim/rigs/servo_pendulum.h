@@ -14,8 +14,11 @@
 
 namespace hoof::sim {
 
+/// Of the duty law: duty = kp_duty counts_per_rad error / this.
+inline constexpr double kDutyCounts = 256.0 * 885.0;
+
 enum class PendulumLaw {
-  kDuty,       // duty = kp_duty counts_per_rad error / 256 / 885; voltage = duty supply
+  kDuty,       // duty = kp_duty counts_per_rad error / kDutyCounts; voltage = duty supply
   kImpedance,  // torque = kp error + kd speed error + torque_ff, clipped
   kTorque,     // torque is an input
 };

@@ -10,10 +10,10 @@ using sim::PendulumInputs;
 using sim::PendulumLaw;
 using sim::PendulumSettings;
 
-constexpr double kCounts = 256.0 * 885.0;  // of the duty law's gain
-constexpr std::size_t kLongest = 120;      // samples that a burst may last
-constexpr double kMostLate_s = 0.1;        // by which all goals may come late
-constexpr double kBurst = 10;              // log probability that one begins, at a sample
+// Set on concealed plants, seeds 88001 and 88002.
+constexpr std::size_t kLongest = 120;  // samples that a burst may last
+constexpr double kMostLate_s = 0.1;    // by which all goals may come late
+constexpr double kBurst = 10;          // log probability that one begins, at a sample
 constexpr double kMostSquare = 25;  // a sample that fits nothing counts no more, over all channels
 constexpr double kHopeless = 40;    // behind the likeliest, in log likelihood: given up
 constexpr double kLearn_s = 0.3;    // in which an unknown torque is learnt: longer than bursts are
@@ -40,7 +40,9 @@ class Clock {
       const double now = t.front() + static_cast<double>(k) * period;
       while (i + 1 < t.size() && t[i + 1] <= now) ++i;
       supply_V.push_back(in.supply_V.empty() ? s.supply_V : in.supply_V[i]);
-      enabled.push_back(in.enable.empty() || in.enable[i] > 0.5);
+      // It turns in the middle of two samples for all that is known, as in the rig's model.
+      const bool past = i + 1 < t.size() && now > 0.5 * (t[i] + t[i + 1]);
+      enabled.push_back(in.enable.empty() || in.enable[past ? i + 1 : i] > 0.5);
     }
     position.resize(laws), velocity.resize(laws), torque.resize(laws);
   }
@@ -91,6 +93,7 @@ struct Track {
   double position = 0, velocity = 0, feed = 0;  // goal in force
   double command_Nm = 0;                        // as recorded; by the last step
   double law_Nm = 0, duty = 0, volt = 0;        // since the last evaluation of the law
+  bool on = true;                               // likewise
   double unknown_Nm = 0;                        // that pulls at the link
   double cost = 0;
   std::size_t began = 0;  // sample
@@ -156,17 +159,18 @@ void LossSearch::step(Track& x, long k, bool lost) const {
     }
     const double error = x.position - x.q;
     if (s_.law == PendulumLaw::kDuty) {
-      x.duty = std::clamp(s_.kp_duty * s_.counts_per_rad * error / kCounts, -1.0, 1.0);
+      x.duty = std::clamp(s_.kp_duty * s_.counts_per_rad * error / sim::kDutyCounts, -1.0, 1.0);
       x.volt = clock_.supply_V[law];
     } else {
       x.law_Nm = std::clamp(s_.kp_Nm_rad * error + s_.kd_Nm_s_rad * (x.velocity - x.w) + x.feed,
                             -s_.torque_limit_Nm, s_.torque_limit_Nm);
     }
-    if (!clock_.enabled[law]) x.duty = x.law_Nm = x.volt = 0;
+    x.on = clock_.enabled[law];
   }
-  x.command_Nm = s_.law == PendulumLaw::kDuty
-                     ? s_.kt_Nm_A / s_.resistance_ohm * (x.duty * x.volt - s_.kt_Nm_A * x.w)
-                     : x.law_Nm;
+  const double asked = s_.law == PendulumLaw::kDuty
+                           ? s_.kt_Nm_A / s_.resistance_ohm * (x.duty * x.volt - s_.kt_Nm_A * x.w)
+                           : x.law_Nm;
+  x.command_Nm = x.on ? asked : 0;
   const double h = clock_.h;
   const double push = x.command_Nm + x.unknown_Nm - gravity_Nm_ * std::sin(x.q + 0.5 * h * x.w);
   // Friction takes speed until there is none.
@@ -182,7 +186,9 @@ void LossSearch::advance(Track& track, long from, long until, bool lost) const {
   for (long k = from; k < until; ++k) step(track, k, lost);
 }
 
+/// NaN where nothing tells: the sample is missing, or the drive is off.
 double LossSearch::residual(const LossChannel& channel, const Track& x, std::size_t i) const {
+  if (!x.on) return std::nan("");
   const double back = clock_.time_s(clock_.at[i]) - in_.time_s[i];
   switch (channel.kind) {
     case LossChannel::kPosition:
@@ -203,9 +209,10 @@ void LossSearch::learn(Track& track, std::size_t i) const {
   const double share = std::min((in_.time_s[i] - in_.time_s[i - 1]) / kLearn_s, 1.0);
   track.q += 2 * share * error;
   track.w += share * error / kLearn_s;
+  // A drive that is off or at its limit does not hang beside its goal by its stiffness.
   const bool clipped = s_.law == PendulumLaw::kDuty ? std::abs(track.duty) >= 1
                                                     : std::abs(track.law_Nm) >= s_.torque_limit_Nm;
-  if (clipped) return;
+  if (clipped || !track.on) return;
   const double most = kMostUnknown * gravity_Nm_ + s_.coulomb_Nm;
   track.unknown_Nm = std::clamp(track.unknown_Nm + stiffness_Nm_rad_ * error * share, -most, most);
 }
@@ -345,7 +352,7 @@ void LossSearch::set(const PendulumSettings& s) {
   stiffness_Nm_rad_ = s.kp_Nm_rad;
   if (s.law != PendulumLaw::kDuty) return;
   stiffness_Nm_rad_ = s.kt_Nm_A / s.resistance_ohm * clock_.supply_V.front() * s.kp_duty *
-                      s.counts_per_rad / kCounts;
+                      s.counts_per_rad / sim::kDutyCounts;
 }
 
 /// Doubtful settings, one after the other, by ever smaller steps: a joint heavier than stated

@@ -33,7 +33,8 @@ struct GoalLosses {
 /// loop is simulated along with each span that may have begun (Viterbi, IEEE Trans. Inf. Theory 13
 /// (1967) 260, with the joint's state carried along); where goals arrive again, the likeliest goes
 /// on. Doubtful settings are fitted along each answer; what is left then is taken as noise of that
-/// size, and of that memory from sample to sample. No effect acts. Laws kDuty and kImpedance.
+/// size, and of that memory from sample to sample. No effect acts. Laws kDuty and kImpedance; of
+/// fewer than 20 samples nothing is told.
 GoalLosses find_losses(const sim::PendulumSettings& settings, const sim::PendulumInputs& inputs,
                        const sim::PendulumStart& start, std::span<const LossChannel> channels,
                        std::span<const LossDoubt> doubts, double longest_step_s);

@@ -2,28 +2,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 
 #include "tools/diagnose/noise.h"
+#include "tools/diagnose/pendulum_keys.h"
 #include "tools/diagnose/pendulum_model.h"
 
 namespace hoof::tools {
 namespace {
 
-struct Key {
-  const char* name;
-  double sim::PendulumSettings::*setting;
-};
-
 /// Settings that shape how a joint follows its goals.
-constexpr std::array kDoubted = {
-    Key{"payload_mass", &sim::PendulumSettings::payload_mass_kg},
-    Key{"arm_mass", &sim::PendulumSettings::arm_mass_kg},
-    Key{"armature", &sim::PendulumSettings::armature_kg_m2},
-    Key{"coulomb", &sim::PendulumSettings::coulomb_Nm},
-    Key{"viscous", &sim::PendulumSettings::viscous_Nm_s_rad},
-    Key{"kt", &sim::PendulumSettings::kt_Nm_A},
-    Key{"resistance", &sim::PendulumSettings::resistance_ohm},
-};
+constexpr std::array<std::string_view, 7> kDoubted = {
+    "payload_mass", "arm_mass", "armature", "coulomb", "viscous", "kt", "resistance"};
 
 }  // namespace
 
@@ -51,10 +41,11 @@ void PendulumModel::look_for_losses(Run& run) const {
   inputs.velocity_goal_bend_rad_s2 = run.goal_bends.velocity;
   inputs.torque_ff_bend_Nm_s = run.goal_bends.torque;
   std::vector<LossDoubt> doubts;
-  for (const Key& key : kDoubted) {
+  for (const PendulumKey& key : kPendulumKeys) {
     const auto doubt = run.doubts.find(key.name);
-    if (doubt == run.doubts.end()) continue;
-    doubts.push_back({key.setting, doubtful_[doubt->second].sigma});
+    const bool doubted = std::find(kDoubted.begin(), kDoubted.end(), key.name) != kDoubted.end();
+    if (!doubted || doubt == run.doubts.end()) continue;
+    doubts.push_back({key.member, doubtful_[doubt->second].sigma});
   }
   run.losses = find_losses(run.settings, inputs, run.start, channels, doubts, run.longest_step_s);
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tools/diagnose/noise.h"
+#include "tools/diagnose/pendulum_keys.h"
 #include "tools/run/errors.h"
 
 namespace hoof::tools {
@@ -19,32 +20,6 @@ using sim::PendulumSettings;
 /// loop closes at a few Hz, so that a hundred steps go into a radian of its phase.
 constexpr double kFreeStep_s = 1e-3;
 constexpr double kLongestStep_s = 1e-3;
-
-struct PendulumKey {
-  const char* name;
-  double PendulumSettings::*member;
-  bool needed_by_all;
-  bool duty, impedance;  // needed by these laws
-};
-
-constexpr std::array kKeys = {
-    PendulumKey{"payload_mass", &PendulumSettings::payload_mass_kg, true, false, false},
-    PendulumKey{"payload_length", &PendulumSettings::payload_length_m, true, false, false},
-    PendulumKey{"arm_mass", &PendulumSettings::arm_mass_kg, false, false, false},
-    PendulumKey{"armature", &PendulumSettings::armature_kg_m2, false, false, false},
-    PendulumKey{"gravity", &PendulumSettings::gravity_m_s2, false, false, false},
-    PendulumKey{"coulomb", &PendulumSettings::coulomb_Nm, false, false, false},
-    PendulumKey{"viscous", &PendulumSettings::viscous_Nm_s_rad, false, false, false},
-    PendulumKey{"control_period", &PendulumSettings::control_period_s, false, false, false},
-    PendulumKey{"kp_duty", &PendulumSettings::kp_duty, false, true, false},
-    PendulumKey{"counts_per_rad", &PendulumSettings::counts_per_rad, false, true, false},
-    PendulumKey{"supply_voltage", &PendulumSettings::supply_V, false, false, false},
-    PendulumKey{"kt", &PendulumSettings::kt_Nm_A, false, true, false},
-    PendulumKey{"resistance", &PendulumSettings::resistance_ohm, false, true, false},
-    PendulumKey{"kp", &PendulumSettings::kp_Nm_rad, false, false, true},
-    PendulumKey{"kd", &PendulumSettings::kd_Nm_s_rad, false, false, true},
-    PendulumKey{"torque_limit", &PendulumSettings::torque_limit_Nm, false, false, true},
-};
 
 /// Whether a key changes what is predicted. The torque constant does under every law but the
 /// recorded torque's: it makes the current of a commanded torque.
@@ -76,7 +51,7 @@ PendulumSettings read_settings(const DataSet& data_set, const Recording& recordi
   settings.law = setup.law == DriveLaw::kDuty        ? PendulumLaw::kDuty
                  : setup.law == DriveLaw::kImpedance ? PendulumLaw::kImpedance
                                                      : PendulumLaw::kTorque;
-  for (const PendulumKey& key : kKeys) {
+  for (const PendulumKey& key : kPendulumKeys) {
     const SetupValue* value = setup.find(key.name);
     if (value) {
       settings.*key.member = value->value;
@@ -177,7 +152,7 @@ void PendulumModel::add(const DataSet& data_set, const Recording& recording) {
 }
 
 void PendulumModel::add_doubts(Run& run) {
-  for (const PendulumKey& key : kKeys) {
+  for (const PendulumKey& key : kPendulumKeys) {
     const SetupValue* stated = run.recording->setup.find(key.name);
     const SetupValue guess{0, stated ? 0 : unstated_sigma(key.name, run.settings)};
     const SetupValue* value = stated || guess.sigma <= 0 ? stated : &guess;
@@ -210,7 +185,7 @@ int PendulumModel::shared_doubt(const DoubtfulValue& doubt) {
 
 PendulumSettings PendulumModel::settings(const Run& run, std::span<const double> setup) const {
   PendulumSettings settings = run.settings;
-  for (const PendulumKey& key : kKeys) {
+  for (const PendulumKey& key : kPendulumKeys) {
     const auto doubt = run.doubts.find(key.name);
     if (doubt != run.doubts.end()) settings.*key.member = setup[doubt->second];
   }

@@ -25,6 +25,9 @@ template <typename Block>
 inline IwdgRegisters& iwdg_registers() {
   return at<IwdgRegisters>(0x4000'3000);
 }
+inline UsartRegisters& usart2_registers() {
+  return at<UsartRegisters>(0x4000'4400);
+}
 inline hal::bxcan::Registers& can1_registers() {
   return at<hal::bxcan::Registers>(0x4000'6400);
 }
@@ -33,9 +36,6 @@ inline hal::bxcan::Registers& can2_registers() {
 }
 inline PwrRegisters& pwr_registers() {
   return at<PwrRegisters>(0x4000'7000);
-}
-inline UsartRegisters& usart2_registers() {
-  return at<UsartRegisters>(0x4000'4400);
 }
 inline UsartRegisters& usart1_registers() {
   return at<UsartRegisters>(0x4001'1000);

@@ -17,7 +17,7 @@ inline constexpr Pin kCan1ReceivePin{8};
 inline constexpr Pin kCan1TransmitPin{9};
 inline constexpr Pin kCan2ReceivePin{5};
 inline constexpr Pin kCan2TransmitPin{6};
-// Port A, alternate function 7: the serial lines in place of CAN1 and CAN2.
+// Port A, alternate function 7 (DS8626, table 9): the serial lines in place of CAN1 and CAN2.
 inline constexpr Pin kSerial0TransmitPin{9};
 inline constexpr Pin kSerial0ReceivePin{10};
 inline constexpr Pin kSerial1TransmitPin{2};

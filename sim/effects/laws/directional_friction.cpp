@@ -25,17 +25,18 @@ class DirectionalFriction final : public JointEffect {
 }  // namespace
 
 EffectInfo directional_friction_effect() {
-  return {
-      .name = "directional_friction",
-      .plug_in = PlugIn::kJoint,
-      .summary = "friction that differs between the two directions",
-      .equation = "friction = coulomb * (1 + asymmetry) for w >= 0, * (1 - asymmetry) for w < 0",
-      .source = "Armstrong, Control of Machines with Friction, 1991, ch. 4",
-      .parameters = {{"asymmetry", "1", -3, 3, 0.3, false, false, {0.3}}},
-      .experiment = "the same slow triangle both ways through the same angles",
-      .make_joint = [](std::span<const double> values) {
-        return std::make_unique<DirectionalFriction>(values);
-      }};
+  return {.name = "directional_friction",
+          .plug_in = PlugIn::kJoint,
+          .summary = "friction that differs between the two directions",
+          .equation =
+              "friction = coulomb * (1 + asymmetry) for w >= 0, * (1 - asymmetry) for w < 0, "
+              "no less than zero",
+          .source = "Armstrong, Control of Machines with Friction, 1991, ch. 4",
+          .parameters = {{"asymmetry", "1", -3, 3, 0.3, false, false, {0.3}}},
+          .experiment = "the same slow triangle both ways through the same angles",
+          .make_joint = [](std::span<const double> values) {
+            return std::make_unique<DirectionalFriction>(values);
+          }};
 }
 
 }  // namespace hoof::sim

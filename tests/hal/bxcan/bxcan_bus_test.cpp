@@ -281,7 +281,7 @@ TEST_CASE("bxCAN: a flood that nobody reads does not keep the e-stop out") {
   rig.can.receive(0, {standard(0x001), 0, 0, 0});
   rig.bus.on_receive_interrupt(0, 100);
   const std::uint64_t kept =
-      hal::bxcan::ReceiveQueue::kSize - hal::bxcan::ReceiveQueue::kUrgentPlaces;
+      hal::bxcan::BxCanBus::Queue::kSize - hal::bxcan::BxCanBus::Queue::kUrgentPlaces;
   CHECK(rig.bus.status().dropped == 100 - kept);
   CanFrame frame;
   for (std::uint64_t i = 0; i < kept; ++i) {

@@ -209,7 +209,7 @@ TEST_CASE("slcan bus: frames both ways, stamped, counted, in order") {
 TEST_CASE("slcan bus: a full queue drops and tells, a full line takes nothing") {
   Adapter adapter;
   adapter.say("O\r");
-  for (std::size_t i = 0; i < slcan::SlcanBus<FakePort>::kQueue; ++i)
+  for (std::uint32_t i = 0; i < slcan::SlcanBus<FakePort>::kQueue; ++i)
     CHECK(adapter.say("t0010\r") == "z\r");
   CHECK(adapter.say("t0010\r") == "\a");
   CHECK(adapter.bus.status().dropped == 1);

@@ -46,8 +46,10 @@ struct Joint {
   std::vector<sim::LostGoals> lost;
   sim::PendulumInputs inputs;
 
-  Joint(const sim::PendulumSettings& settings, std::vector<sim::LostGoals> spans)
+  Joint(const sim::PendulumSettings& settings, std::vector<sim::LostGoals> spans,
+        std::span<const double> enable = {})
       : truth(settings), lost(std::move(spans)) {
+    inputs.enable = enable;
     for (int i = 0; i < kSamples; ++i) {
       const double t = kSample_s * i;
       time_s.push_back(t);
@@ -133,6 +135,7 @@ TEST_CASE("goal losses: a load and a friction other than stated are no lost goal
                                          {&sim::PendulumSettings::viscous_Nm_s_rad, 0.004}};
   const GoalLosses found = joint.find(stated, doubts, true);
   if (!any) CHECK(found.lost.empty());  // else one may come in two parts
+  // Two samples a burst: what is left of a load that is a fifth off hides its ends.
   CHECK(mistaken_s(found.lost, joint.lost) <= 2 * kSample_s * static_cast<double>(kLost.size()));
 }
 
@@ -143,7 +146,21 @@ TEST_CASE("goal losses: bursts while all goals come late are told from the laten
   sim::PendulumSettings stated = impedance();
   const GoalLosses found = joint.find(stated, {}, true);
   CHECK(found.lost.size() == kLost.size());
+  // The lateness is looked for in half samples: one more of them at either end.
   CHECK(mistaken_s(found.lost, kLost) < 2 * kSample_s * static_cast<double>(kLost.size()));
+}
+
+TEST_CASE("goal losses: a drive that is turned off lets go, and hides no burst before that") {
+  const bool duty_law = GENERATE(false, true);
+  CAPTURE(duty_law);
+  std::vector<double> enable(kSamples, 0);
+  std::fill(enable.begin(), enable.begin() + kSamples / 3, 1);
+  const std::vector<sim::LostGoals> early(kLost.begin(), kLost.begin() + 3);
+  const Joint joint(duty_law ? duty() : impedance(), early, enable);
+  const GoalLosses found = joint.find(joint.truth, {}, true);
+  CHECK(found.lost.size() == early.size());
+  // No more than all five may have above, of which these are three.
+  CHECK(mistaken_s(found.lost, early) < (duty_law ? 0.006 : 0.003) * 5);
 }
 
 TEST_CASE("goal losses: a recording too short to tell has none") {

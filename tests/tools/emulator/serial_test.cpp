@@ -88,7 +88,8 @@ TEST_CASE("serial lines: sinkage and traction, the commands are those of the loo
   for (const int bus : {0, 1}) {
     CAPTURE(kind, bus);
     const auto a = commands(host, bus), b = commands(image, bus);
-    if (bus == 0) CHECK(a.size() > kTicks / 2);
+    // Sinkage moves the toes alone, on bus 0; traction all three joints.
+    if (bus == 0 || kind == "traction") CHECK(a.size() > kTicks / 2);
     REQUIRE(a.size() == b.size());
     for (std::size_t i = 0; i < a.size(); ++i) {
       CAPTURE(i);

@@ -26,6 +26,17 @@ struct Rig {
   FootBoard board{rcc, pwr, port, watchdog};
 };
 
+/// Pins of an alternate function, with their pull-ups.
+void check_pulled_up(const GpioRegisters& port, std::initializer_list<unsigned> pins,
+                     unsigned function) {
+  for (const unsigned pin : pins) {
+    CAPTURE(pin);
+    CHECK((port.MODER.stored() >> (2 * pin) & 3) == 2);
+    CHECK((port.AFR[pin / 8].stored() >> (4 * (pin % 8)) & 15) == function);
+    CHECK((port.PUPDR.stored() >> (2 * pin) & 3) == 1);
+  }
+}
+
 }  // namespace
 
 TEST_CASE("board: each cause of a reset, with what the part sets besides") {
@@ -76,12 +87,7 @@ TEST_CASE("board: the CAN pins have their function, the pins of the debugger kee
   rig.port.MODER.store(0x0000'0280);  // after reset: PB3, PB4 are the debugger's
   rig.port.PUPDR.store(0x0000'0100);
   configure_pins(rig.port_a, rig.port);
-  for (const unsigned pin : {5u, 6u, 8u, 9u}) {
-    CAPTURE(pin);
-    CHECK((rig.port.MODER.stored() >> (2 * pin) & 3) == 2);
-    CHECK((rig.port.AFR[pin / 8].stored() >> (4 * (pin % 8)) & 15) == 9);
-    CHECK((rig.port.PUPDR.stored() >> (2 * pin) & 3) == 1);
-  }
+  check_pulled_up(rig.port, {5u, 6u, 8u, 9u}, 9);
   CHECK((rig.port.MODER.stored() & 0x3FF) == 0x280);
   CHECK((rig.port.PUPDR.stored() & 0x3FF) == 0x100);
 }
@@ -91,12 +97,7 @@ TEST_CASE("board: the serial pins have their function, SWD and USB keep theirs")
   rig.port_a.MODER.store(0xA800'0000);  // after reset: PA13 to PA15 are the debugger's
   rig.port_a.PUPDR.store(0x6400'0000);
   configure_pins(rig.port_a, rig.port);
-  for (const unsigned pin : {2u, 3u, 9u, 10u}) {
-    CAPTURE(pin);
-    CHECK((rig.port_a.MODER.stored() >> (2 * pin) & 3) == 2);
-    CHECK((rig.port_a.AFR[pin / 8].stored() >> (4 * (pin % 8)) & 15) == 7);
-    CHECK((rig.port_a.PUPDR.stored() >> (2 * pin) & 3) == 1);
-  }
+  check_pulled_up(rig.port_a, {2u, 3u, 9u, 10u}, 7);
   CHECK((rig.port_a.MODER.stored() >> 22) == 0xA800'0000 >> 22);
   CHECK((rig.port_a.PUPDR.stored() >> 22) == 0x6400'0000 >> 22);
 }

@@ -6,26 +6,23 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace hoof::hal::bxcan {
-
-/// A frame as the peripheral holds it, with its arrival: a quarter of a CanFrame.
-struct ReceivedFrame {
-  std::uint32_t identifier = 0;
-  std::uint32_t length = 0;
-  std::uint32_t low = 0;
-  std::uint32_t high = 0;
-  std::int64_t stamp_ns = 0;
-};
+namespace hoof::hal {
 
 /// One writer, which may interrupt the one reader; never the other way round.
+/// @tparam Frame as the peripheral holds it
+/// @tparam kPlaces a power of two, as both counts go on past 2^32
+/// @tparam kUrgent of them only urgent frames may take, so that no flood of others keeps an e-stop
+/// out
+template <typename Frame, std::uint32_t kPlaces, std::uint32_t kUrgent>
 class ReceiveQueue {
+  static_assert((kPlaces & (kPlaces - 1)) == 0 && kUrgent < kPlaces);
+
  public:
-  static constexpr std::uint32_t kSize = 32;
-  /// Places that only urgent frames may take, so that no flood of others keeps an e-stop out.
-  static constexpr std::uint32_t kUrgentPlaces = 3;
+  static constexpr std::uint32_t kSize = kPlaces;
+  static constexpr std::uint32_t kUrgentPlaces = kUrgent;
 
   /// @return false when there is no place; the frame is then lost
-  bool put(const ReceivedFrame& frame, bool urgent) {
+  bool put(const Frame& frame, bool urgent) {
     const std::uint32_t written = written_.load(std::memory_order_relaxed);
     const std::uint32_t waiting = written - taken_.load(std::memory_order_relaxed);
     if (waiting >= (urgent ? kSize : kSize - kUrgentPlaces)) return false;
@@ -35,7 +32,7 @@ class ReceiveQueue {
     return true;
   }
 
-  bool take(ReceivedFrame& frame) {
+  bool take(Frame& frame) {
     if (empty()) return false;
     std::atomic_signal_fence(std::memory_order_acquire);
     const std::uint32_t taken = taken_.load(std::memory_order_relaxed);
@@ -50,9 +47,9 @@ class ReceiveQueue {
   }
 
  private:
-  std::array<ReceivedFrame, kSize> frames_{};
-  std::atomic<std::uint32_t> written_{0};  // both count on for ever, past 2^32
+  std::array<Frame, kSize> frames_{};
+  std::atomic<std::uint32_t> written_{0};
   std::atomic<std::uint32_t> taken_{0};
 };
 
-}  // namespace hoof::hal::bxcan
+}  // namespace hoof::hal
