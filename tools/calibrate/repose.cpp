@@ -58,15 +58,16 @@ Table runs_table(const std::vector<HeapCase>& cases, const std::vector<HeapResul
                {"outline_deg", 3},
                {"sides_deg", 3},
                {"height_mm", 2},
-               {"grains_on_dish_count", 0},
+               {"radius_mm", 2},
+               {"grains_within_count", 0},
                {"time_s", 2}});
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const sim::ContactPair& p = cases[i].materials.sand_sand;
     const HeapAngle& a = results[i].angle;
     table.row({cases[i].name, static_cast<std::int64_t>(cases[i].test.seed), p.restitution.value,
                p.rolling_friction.value, p.static_friction.value, a.ring_deg, a.outline_deg,
-               a.sides_deg, 1e3 * a.height_m, static_cast<std::int64_t>(a.grains_on_dish),
-               results[i].time_s});
+               a.sides_deg, 1e3 * a.height_m, 1e3 * a.radius_m,
+               static_cast<std::int64_t>(a.grains_in_it), results[i].time_s});
   }
   return table;
 }
@@ -162,16 +163,23 @@ Findings find_repose(const sim::Materials& materials, const ReposeSettings& sett
   Findings f;
   f.laboratory = "repose";
   f.title = "Repose: sand runs through a funnel and builds a heap";
+  const HeapTest& t = settings.test;
+  const std::string base =
+      t.rim > 0 ? text(
+                      "a dish of %.1f mm radius with a rim of %.1f mm that what is too much runs "
+                      "over",
+                      1e3 * g.base_radius_m, 1e3 * g.rim_m)
+                : text("a flat plate of %.0f mm radius", 1e3 * g.base_radius_m);
   f.about = {text("%d grains of 2 to 6.4 mm (the paper's grading) at e = %.3f, mu_s = %.3f, "
-                  "mu_r = %.3f, through an outlet of %.1f mm, %.1f mm above a dish of %.1f mm "
-                  "radius with a rim of %.1f mm; step %.2f us.",
-                  settings.test.grains, p.restitution.value, p.static_friction.value,
-                  p.rolling_friction.value, 1e3 * settings.test.outlet_m, 1e3 * g.outlet_z_m,
-                  1e3 * g.dish_radius_m, 1e3 * g.rim_m, 1e6 * settings.test.step_s),
+                  "mu_r = %.3f, through an outlet of %.1f mm, %.1f mm above ",
+                  t.grains, p.restitution.value, p.static_friction.value, p.rolling_friction.value,
+                  1e3 * t.outlet_m, 1e3 * g.outlet_z_m) +
+                 base + text("; step %.2f us.", 1e6 * t.step_s),
              text("%d heaps, seeds %llu on. Ring fit: least squares of height over distance from "
-                  "the axis, 25 to 85 %% of the dish's radius, of the surface on a grid of 1 mm. "
+                  "the axis, 25 to 85 %% of the %s radius, of the surface on a grid of 1 mm. "
                   "Outline: the same range of both flanks, from 18 sides.",
-                  settings.seeds, static_cast<unsigned long long>(settings.test.seed))};
+                  settings.seeds, static_cast<unsigned long long>(t.seed),
+                  t.rim > 0 ? "dish's" : "heap's (to where its mean height is one d50)")};
   const bool enough = settings.seeds >= kSeedsForBand;
   const auto bound = [&](double sign) {
     return enough ? std::optional(kPaperReposeMeasured_deg + sign * kBand_deg) : std::nullopt;
