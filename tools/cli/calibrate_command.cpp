@@ -150,7 +150,7 @@ void add_repose(CLI::App& parent, Invocation& invocation) {
   scaled(*command, "--overflow", o->lab.test.overflow, 1,
          "With --rim: sand poured over what a heap of 38 degrees on the dish holds [2]", "X");
   scaled(*command, "--drop", o->lab.test.drop, 1,
-         "Height of the outlet over that of the tip of a heap of 55 degrees [1.1]", "X");
+         "Height of the outlet over that of the tip of a heap of 55 degrees [2.5]", "X");
   scaled(*command, "--step", o->lab.test.step_s, 1e-6, "Time step [5.6]", "US");
   command->add_option("--threads", o->threads, "Heaps at once, 1..1024; the bytes are the same [2]")
       ->type_name("N")
