@@ -170,6 +170,7 @@ std::string findings_text(const Findings& f) {
   std::string text = f.title + "\n";
   for (const std::string& line : f.about) text += line + "\n";
   text += "\n" + target_table(f).markdown();
+  if (f.rows) text += "\n" + f.rows->markdown();
   if (!f.readings.empty()) {
     text += "\n" + capitalised(f.readings_of) + ":\n\n" + reading_table(f).markdown();
   }
@@ -183,6 +184,7 @@ void write_findings(const Findings& f, const sim::Materials& materials, const fs
   fs::create_directories(folder, error);
   if (error) throw UserError("--out " + folder.string() + ": cannot be made: " + error.message());
   if (f.runs) f.runs->write_csv(folder / "runs.csv");
+  if (f.rows) f.rows->write_csv(folder / (f.rows_name + ".csv"));
   write_file(folder / "report.html", page(f));
   write_result_json(folder / "result.json", result(f, materials));
 }

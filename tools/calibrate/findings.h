@@ -44,6 +44,8 @@ struct Findings {
   std::string x_label, y_label;
   std::vector<PlotLine> lines;
   std::optional<Table> runs;
+  std::optional<Table> rows;  // of a table of the paper, ours beside its own
+  std::string rows_name;      // "table2": rows go to table2.csv
 };
 
 /// Coefficients as flags gave them, in place of those of the material.
@@ -57,11 +59,11 @@ struct CoefficientFlags {
 sim::Materials lab_materials(const std::filesystem::path& file, const CoefficientFlags& flags,
                              sim::ContactPair sim::Materials::*pair);
 
-/// Targets and readings in Markdown, about and notes as sentences.
+/// Targets, rows and readings in Markdown, about and notes as sentences.
 std::string findings_text(const Findings& findings);
 
-/// result.json, runs.csv and report.html in `folder`, which is made if need be. Equal findings give
-/// equal bytes. @throws UserError where a file cannot be written
+/// result.json, runs.csv, the rows and report.html in `folder`, which is made if need be. Equal
+/// findings give equal bytes. @throws UserError where a file cannot be written
 void write_findings(const Findings& findings, const sim::Materials& materials,
                     const std::filesystem::path& folder);
 

@@ -12,7 +12,8 @@ namespace hoof::tools {
 namespace {
 
 constexpr double kGrid_m = 1e-3;
-constexpr double kInner = 0.25, kOuter = 0.85;  // of the dish's radius
+constexpr double kRing_m = 2e-3;                // width, of the means that tell the radius
+constexpr double kInner = 0.25, kOuter = 0.85;  // of the heap's radius
 constexpr int kSides = 18, kEighths = 8;
 
 /// Least squares of z over r, as the angle of the fall.
@@ -87,24 +88,45 @@ double outline_deg(const Surface& surface, double radius_m, double azimuth) {
 
 }  // namespace
 
-HeapAngle heap_angle(const std::vector<sim::Grain>& grains, double dish_radius_m) {
-  if (!(dish_radius_m >= 5 * kGrid_m)) {
-    throw std::invalid_argument("a heap needs a dish of at least 5 mm radius");
+double heap_radius_m(const std::vector<sim::Grain>& grains, double floor_m) {
+  double reach_m = 0;
+  for (const sim::Grain& g : grains) {
+    if (g.p_m.z() >= 0) reach_m = std::max(reach_m, g.p_m.head<2>().norm() + g.radius_m);
+  }
+  Surface surface(reach_m);
+  for (const sim::Grain& g : grains) {
+    if (g.p_m.z() >= 0) surface.cover(g);
+  }
+  std::vector<double> sum_m(std::size_t(std::ceil(reach_m / kRing_m)) + 1, 0.0), n(sum_m.size());
+  surface.visit([&](double x, double y, double z) {
+    const auto ring = std::size_t(std::hypot(x, y) / kRing_m);
+    if (ring < sum_m.size()) sum_m[ring] += z, n[ring] += 1;
+  });
+  std::size_t ring = 0;
+  while (ring < n.size() && n[ring] > 0 && sum_m[ring] >= floor_m * n[ring]) ++ring;
+  if (ring == 0) throw std::invalid_argument("there is no heap about the axis");
+  return double(ring) * kRing_m;
+}
+
+HeapAngle heap_angle(const std::vector<sim::Grain>& grains, double radius_m) {
+  if (!(radius_m >= 5 * kGrid_m)) {
+    throw std::invalid_argument("a heap needs a radius of at least 5 mm");
   }
   HeapAngle out;
-  Surface surface(dish_radius_m);
+  out.radius_m = radius_m;
+  Surface surface(radius_m);
   for (const sim::Grain& g : grains) {
-    if (g.p_m.z() < 0 || g.p_m.head<2>().norm() > dish_radius_m) continue;
-    ++out.grains_on_dish;
+    if (g.p_m.z() < 0 || g.p_m.head<2>().norm() > radius_m) continue;
+    ++out.grains_in_it;
     surface.cover(g);
   }
-  if (out.grains_on_dish == 0) throw std::invalid_argument("no grain lies on the dish");
+  if (out.grains_in_it == 0) throw std::invalid_argument("no grain lies within the heap's radius");
   Slope ring;
   std::array<Slope, kEighths> eighths;
   surface.visit([&](double x, double y, double z) {
     out.height_m = std::max(out.height_m, z);
     const double r = std::hypot(x, y);
-    if (r < kInner * dish_radius_m || r > kOuter * dish_radius_m) return;
+    if (r < kInner * radius_m || r > kOuter * radius_m) return;
     ring.add(r, z);
     const double turn = (std::atan2(y, x) / std::numbers::pi + 1) / 2;  // 0..1
     eighths[std::size_t(turn * kEighths) % kEighths].add(r, z);
@@ -114,8 +136,7 @@ HeapAngle heap_angle(const std::vector<sim::Grain>& grains, double dish_radius_m
   for (const Slope& part : eighths) parts.push_back(part.angle_deg());
   out.sides_deg = sample_of(parts).deviation;
   for (int side = 0; side < kSides; ++side) {
-    out.outline_deg +=
-        outline_deg(surface, dish_radius_m, std::numbers::pi * side / kSides) / kSides;
+    out.outline_deg += outline_deg(surface, radius_m, std::numbers::pi * side / kSides) / kSides;
   }
   return out;
 }

@@ -21,9 +21,11 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kShareOfSolids = 0.58;  // of a heap, for its size only
 constexpr double kConeAngle = 38 * kDegree;
-constexpr double kWall_m = 6e-3;        // of dish and funnel: thicker than any overlap
-constexpr double kFloorBelow_m = 0.02;  // of the ground under the dish's floor
-constexpr double kPlace_m = 6.6e-3;     // of the lattice above the funnel: the largest grain fits
+constexpr double kSteepest = 55 * kDegree;  // of the paper's table 2: heaps that the outlet clears
+constexpr double kPlateOverHeap = 3;        // radius, over that of a cone of 38 degrees
+constexpr double kWall_m = 6e-3;            // of base and funnel: thicker than any overlap
+constexpr double kFloorBelow_m = 0.02;      // of the ground under the dish's floor
+constexpr double kPlace_m = 6.6e-3;  // of the lattice above the funnel: the largest grain fits
 constexpr double kPiece_s = 0.01;
 constexpr int kSegments = 48;
 // At rest: the mean kinetic energy of the heap's grains lifts none by a thousandth of its diameter,
@@ -31,6 +33,8 @@ constexpr int kSegments = 48;
 constexpr double kQuiet = 1e-3;
 constexpr int kQuietPieces = 5;
 constexpr int kBlockedPieces = 30;  // 0.3 s without a grain that leaves; a fall takes 0.1 s
+// A dish from which less runs over is not filled to the slope that its sand can hold.
+constexpr double kLeastOverflow = 0.03;
 
 sim::BedSettings grading() {
   const sim::Settings paper =
@@ -87,8 +91,13 @@ sim::BedState hopper(const HeapTest& t, const HeapGeometry& g, std::vector<doubl
   return state;
 }
 
-sim::TriangleMesh dish(const HeapGeometry& g) {
-  const double r = g.dish_radius_m, out = r + 0.5 * kWall_m;
+/// Of a cone of that solid volume.
+double cone_radius_m(double solids_m3, double angle_rad) {
+  return std::cbrt(solids_m3 / kShareOfSolids * 3 / std::numbers::pi / std::tan(angle_rad));
+}
+
+sim::TriangleMesh base(const HeapGeometry& g) {
+  const double r = g.base_radius_m, out = r + 0.5 * kWall_m;
   std::vector<std::pair<double, double>> polygon = {{0, -kWall_m}, {out, -kWall_m}};
   if (g.rim_m > 0) polygon.insert(polygon.end(), {{out, g.rim_m}, {r, g.rim_m}, {r, 0}});
   if (g.rim_m <= 0) polygon.emplace_back(out, 0);
@@ -112,7 +121,7 @@ sim::DemSettings settings(const sim::Materials& materials, const HeapTest& t,
   sim::DemSettings s = lab_settings(materials);
   s.dt_s = t.step_s;
   // What runs over may roll so far that a wall is the lesser evil.
-  const double wall_m = 3 * g.dish_radius_m + 0.03;
+  const double wall_m = (g.rim_m > 0 ? 3 : 1.2) * g.base_radius_m + 0.03;
   s.low_m = {-wall_m - 0.02, -wall_m - 0.02, -kFloorBelow_m - 0.02};
   s.high_m = {wall_m + 0.02, wall_m + 0.02, g.funnel_top_z_m + 0.05};
   s.walls = {{Eigen::Vector3d::UnitZ(), -kFloorBelow_m},
@@ -130,19 +139,24 @@ void HeapTest::validate() const {
   require_within("outlet", 1e3 * outlet_m, 15, 200, "mm");
   require_within("funnel-angle", funnel_half_angle_rad / kDegree, 10, 60, "deg");
   require_within("step", 1e6 * step_s, 0.5, 8, "us");
-  require_within("overflow", overflow, 1, 5, "");
   require_within("rim", rim, 0, 3, "");
+  require_within("overflow", overflow, 1, 5, "");
+  require_within("drop", drop, 0.5, 5, "");
 }
 
 HeapGeometry heap_geometry(const HeapTest& t) {
   const sim::BedSettings bed = grading();
   const double solids = solids_m3(sim::graded_diameters(bed, std::size_t(t.grains)));
   HeapGeometry g;
-  g.dish_radius_m =
-      std::cbrt(solids / t.overflow / kShareOfSolids * 3 / std::numbers::pi / std::tan(kConeAngle));
-  g.rim_m = t.rim * bed.d50_m();
-  g.outlet_z_m = 1.25 * (g.rim_m + g.dish_radius_m * std::tan(40 * kDegree));
-  g.funnel_radius_m = std::max(1.2 * g.dish_radius_m, t.outlet_m);
+  g.d50_m = bed.d50_m();
+  g.rim_m = t.rim * g.d50_m;
+  const bool dish = t.rim > 0;
+  const double held_m3 = dish ? solids / t.overflow : solids;
+  g.base_radius_m = (dish ? 1 : kPlateOverHeap) * cone_radius_m(held_m3, kConeAngle);
+  // Over a dish the heap's foot is the rim, on the plate the heap is the narrower the steeper.
+  const double foot_m = dish ? g.base_radius_m : cone_radius_m(solids, kSteepest);
+  g.outlet_z_m = t.drop * (g.rim_m + foot_m * std::tan(kSteepest));
+  g.funnel_radius_m = std::max(1.2 * cone_radius_m(held_m3, kConeAngle), t.outlet_m);
   g.cone_top_z_m =
       g.outlet_z_m + (g.funnel_radius_m - 0.5 * t.outlet_m) / std::tan(t.funnel_half_angle_rad);
   const double highest_m = places(t, g, std::size_t(t.grains)).back().z();
@@ -180,7 +194,7 @@ struct HeapMaking::Parts {
   Parts(const sim::Materials& materials, const HeapTest& t, const HeapGeometry& g)
       : bed(settings(materials, t, g),
             hopper(t, g, sim::graded_diameters(grading(), std::size_t(t.grains)))) {
-    bed.add_mesh(dish(g), Eigen::Vector3d::Zero(), Eigen::Quaterniond::Identity());
+    bed.add_mesh(base(g), Eigen::Vector3d::Zero(), Eigen::Quaterniond::Identity());
     bed.add_mesh(funnel(t, g), Eigen::Vector3d::Zero(), Eigen::Quaterniond::Identity());
   }
 
@@ -209,7 +223,7 @@ bool HeapMaking::advance() {
   double ratio = 0;
   for (const sim::Grain& g : parts_->bed.state().grains) {
     if (g.p_m.z() > geometry_.outlet_z_m) ++inside;
-    if (g.p_m.z() < 0 || g.p_m.head<2>().norm() > geometry_.dish_radius_m) continue;
+    if (g.p_m.z() < 0 || g.p_m.head<2>().norm() > geometry_.base_radius_m) continue;
     ++heap;
     const double energy_m2_s2 =
         0.5 * g.v_m_s.squaredNorm() + 0.2 * g.radius_m * g.radius_m * g.w_rad_s.squaredNorm();
@@ -219,18 +233,50 @@ bool HeapMaking::advance() {
   still_pieces_ = inside > 0 && poured <= share_poured_ ? still_pieces_ + 1 : 0;
   share_poured_ = std::max(share_poured_, poured);
   if (still_pieces_ >= kBlockedPieces) {
+    require_room();
     throw std::runtime_error("repose: " + std::to_string(inside) + " grains block the outlet of " +
-                             format_number(1e3 * test_.outlet_m) + " mm (seed " +
-                             std::to_string(test_.seed) + "); raise --outlet");
+                             format_number(1e3 * test_.outlet_m) + " mm" + of_seed() +
+                             "; raise --outlet");
   }
   const bool quiet = inside == 0 && heap > 0 && ratio < kQuiet * double(heap);
   quiet_pieces_ = quiet ? quiet_pieces_ + 1 : 0;
-  if (quiet_pieces_ >= kQuietPieces) return false;
+  if (quiet_pieces_ >= kQuietPieces) {
+    require_an_angle();
+    return false;
+  }
   if (time_s() > test_.longest_s) {
-    throw std::runtime_error("repose: not at rest after " + format_number(test_.longest_s) +
-                             " s (seed " + std::to_string(test_.seed) + ")");
+    throw std::runtime_error("repose: not at rest after " + format_number(test_.longest_s) + " s" +
+                             of_seed());
   }
   return true;
+}
+
+std::string HeapMaking::of_seed() const {
+  return " (seed " + std::to_string(test_.seed) + ")";
+}
+
+void HeapMaking::require_room() const {
+  for (const sim::Grain& g : parts_->bed.state().grains) {
+    const bool beside = g.p_m.head<2>().norm() > 0.5 * test_.outlet_m;
+    const double top_m = g.p_m.z() + g.radius_m;
+    if (beside || top_m > geometry_.outlet_z_m || top_m < geometry_.outlet_z_m - kPlace_m) continue;
+    throw std::runtime_error("repose: the heap reaches the outlet of the funnel" + of_seed() +
+                             "; raise --drop");
+  }
+}
+
+void HeapMaking::require_an_angle() const {
+  require_room();
+  if (test_.rim <= 0) return;
+  std::size_t over = 0;
+  for (const sim::Grain& g : parts_->bed.state().grains) {
+    if (g.p_m.z() < 0 || g.p_m.head<2>().norm() > geometry_.base_radius_m) ++over;
+  }
+  if (double(over) < kLeastOverflow * test_.grains) {
+    throw std::runtime_error("repose: " + std::to_string(over) + " of " +
+                             std::to_string(test_.grains) + " grains ran over the rim" + of_seed() +
+                             ": the slope is that of the filling; raise --overflow");
+  }
 }
 
 std::string HeapMaking::snapshot() const {

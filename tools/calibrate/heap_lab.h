@@ -1,8 +1,6 @@
-// The repose laboratory: grains run through a funnel onto a dish with a rim and build a heap, what
-// is too much runs over the rim.
-//
-// The rim is there so that the foot of the heap does not roll away on a plate of little rolling
-// friction; README.md says what it changes.
+// The repose laboratory: grains run through a funnel and build a heap, on a wide plate on which its
+// foot is free, or on a dish with a rim that what is too much runs over. README.md says what of the
+// two it makes.
 #pragma once
 
 #include <cstdint>
@@ -20,10 +18,11 @@ namespace hoof::tools {
 struct HeapTest {
   int grains = 3000;                                  // of the paper's grading, 2 to 6.4 mm
   std::uint64_t seed = 1;                             // of their places and order above the funnel
-  double outlet_m = 0.025;                            // diameter
+  double outlet_m = 0.032;                            // diameter, 5 of the largest grains
   double funnel_half_angle_rad = 0.5235987755982988;  // of the cone, to its axis
-  double overflow = 1.35;  // grains poured over those that a cone of 38 degrees on the dish holds
-  double rim = 1;          // height of the dish's rim over d50 of the grading; 0: a flat plate
+  double rim = 0;          // height of the dish's rim over d50 of the grading; 0: the wide plate
+  double overflow = 2;     // grains poured over those that a cone of 38 degrees on the dish holds
+  double drop = 1.1;       // height of the outlet over that of the tip of a heap of 55 degrees
   double step_s = 5.6e-6;  // 27 % of the Rayleigh time of the smallest grain
   double longest_s = 8;    // simulated time at most
 
@@ -31,11 +30,12 @@ struct HeapTest {
   void validate() const;
 };
 
-/// Lengths that follow from the test, m. The dish's floor is z = 0, its middle the origin.
+/// Lengths that follow from the test, m. The floor is z = 0, its middle the origin.
 struct HeapGeometry {
-  double dish_radius_m = 0;    // of the floor, inside the rim
-  double rim_m = 0;            // its height
-  double outlet_z_m = 0;       // a quarter above the tip of a cone of 40 degrees
+  double base_radius_m = 0;  // of the plate, or of the dish's floor inside its rim
+  double rim_m = 0;          // its height
+  double d50_m = 0;          // of the grading
+  double outlet_z_m = 0;
   double funnel_radius_m = 0;  // of its cylinder
   double cone_top_z_m = 0;
   double funnel_top_z_m = 0;
@@ -55,7 +55,8 @@ class HeapMaking {
 
   /// 10 ms of simulated time.
   /// @return false once the heap is at rest
-  /// @throws std::runtime_error where grains block the funnel or do not come to rest in time
+  /// @throws std::runtime_error where grains block the funnel or do not come to rest in time, and
+  /// where the heap at rest tells no angle: grown into the funnel, or a dish that did not run over
   bool advance();
 
   double time_s() const;
@@ -67,11 +68,15 @@ class HeapMaking {
   /// @throws std::runtime_error where the bytes are none of this test's
   void restore(std::string_view snapshot);
 
-  /// All grains, by id; those that ran over lie beside the dish.
+  /// All grains, by id; those that ran over lie beside the base.
   std::vector<sim::Grain> grains() const;
 
  private:
   struct Parts;
+  void require_room() const;
+  void require_an_angle() const;
+  std::string of_seed() const;
+
   std::unique_ptr<Parts> parts_;
   HeapTest test_;
   HeapGeometry geometry_;

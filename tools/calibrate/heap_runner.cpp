@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Raised whenever the same settings would give another heap: kept ones are then made anew.
-constexpr int kFormat = 1;
+constexpr int kFormat = 2;
 constexpr double kSettling = 0.15;  // of the work of a heap that comes after pouring
 
 std::string hex(std::uint64_t value) {
@@ -57,7 +57,8 @@ void write_whole(const fs::path& file, const std::string& bytes) {
 std::string to_text(const HeapResult& r) {
   return format_number(r.angle.ring_deg) + " " + format_number(r.angle.outline_deg) + " " +
          format_number(r.angle.sides_deg) + " " + format_number(r.angle.height_m) + " " +
-         std::to_string(r.angle.grains_on_dish) + " " + format_number(r.time_s) + "\n";
+         format_number(r.angle.radius_m) + " " + std::to_string(r.angle.grains_in_it) + " " +
+         format_number(r.time_s) + "\n";
 }
 
 std::optional<HeapResult> read_result(const fs::path& file) {
@@ -65,8 +66,8 @@ std::optional<HeapResult> read_result(const fs::path& file) {
   HeapResult r;
   HeapAngle& a = r.angle;
   const std::string text = read_file(file);
-  if (std::sscanf(text.c_str(), "%lf %lf %lf %lf %d %lf", &a.ring_deg, &a.outline_deg, &a.sides_deg,
-                  &a.height_m, &a.grains_on_dish, &r.time_s) != 6) {
+  if (std::sscanf(text.c_str(), "%lf %lf %lf %lf %lf %d %lf", &a.ring_deg, &a.outline_deg,
+                  &a.sides_deg, &a.height_m, &a.radius_m, &a.grains_in_it, &r.time_s) != 7) {
     return {};  // damaged: made anew
   }
   return r;
@@ -97,6 +98,11 @@ void keep(const HeapMaking& heap, const fs::path& file) {
   std::string whole(sizeof sum, '\0');
   std::memcpy(whole.data(), &sum, sizeof sum);
   write_whole(file, whole + bytes);
+}
+
+HeapAngle angle_of(const std::vector<sim::Grain>& grains, const HeapTest& test) {
+  const HeapGeometry g = heap_geometry(test);
+  return heap_angle(grains, g.rim_m > 0 ? g.base_radius_m : heap_radius_m(grains, g.d50_m));
 }
 
 /// The cases that are still to be made, shared by the threads.
@@ -156,8 +162,7 @@ class Work {
       keep(*heap, snapshot);
       return {};
     }
-    const HeapResult result{heap_angle(heap->grains(), heap_geometry(c.test).dish_radius_m),
-                            heap->time_s()};
+    const HeapResult result{angle_of(heap->grains(), c.test), heap->time_s()};
     write_whole(file_of(c, folder_), to_text(result));
     std::error_code ignored;
     fs::remove(snapshot, ignored);
@@ -198,9 +203,9 @@ std::string heap_key(const HeapCase& c) {
     add(p->restitution.value), add(p->static_friction.value), add(p->rolling_friction.value);
   }
   const HeapTest& t = c.test;
-  add(t.grains), add(t.outlet_m), add(t.funnel_half_angle_rad), add(t.overflow), add(t.rim),
-      add(t.step_s);
-  add(t.longest_s);
+  add(t.grains), add(t.outlet_m), add(t.funnel_half_angle_rad), add(t.rim), add(t.overflow),
+      add(t.drop);
+  add(t.step_s), add(t.longest_s);
   return key + " seed " + std::to_string(t.seed);
 }
 

@@ -4,8 +4,36 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace hoof::tools {
+namespace {
+
+/// From 1 on; equal values share their mean.
+std::vector<double> ranks(const std::vector<double>& values) {
+  std::vector<double> out;
+  for (const double v : values) {
+    const auto below = std::count_if(values.begin(), values.end(), [v](double o) { return o < v; });
+    const auto equal = std::count(values.begin(), values.end(), v);
+    out.push_back(double(below) + 0.5 * double(equal + 1));
+  }
+  return out;
+}
+
+}  // namespace
+
+double rank_correlation(const std::vector<double>& a, const std::vector<double>& b) {
+  if (a.size() != b.size()) throw std::invalid_argument("rank correlation of unequal lists");
+  const std::vector<double> ra = ranks(a), rb = ranks(b);
+  const double middle = 0.5 * double(a.size() + 1);  // the mean of any ranks
+  double ab = 0, aa = 0, bb = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    ab += (ra[i] - middle) * (rb[i] - middle);
+    aa += (ra[i] - middle) * (ra[i] - middle);
+    bb += (rb[i] - middle) * (rb[i] - middle);
+  }
+  return ab / std::sqrt(aa * bb);  // 0 / 0 where one is constant
+}
 
 double student_t_975(std::size_t degrees) {
   // Student (1908), any table; 12.706 for one degree of freedom.

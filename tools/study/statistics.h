@@ -20,6 +20,11 @@ struct Sample {
 /// Values that are NaN (a run that blew up or did not get there) are left out.
 Sample sample_of(const std::vector<double>& values);
 
+/// Spearman's rank correlation, equal values at their mean rank: 1 where one list rises with the
+/// other, -1 where it falls. NaN where a list is constant, or of fewer than two values.
+/// @throws std::invalid_argument where the lists are not of one length
+double rank_correlation(const std::vector<double>& a, const std::vector<double>& b);
+
 /// 97.5 % quantile of Student's t for the degrees of freedom; above 10 that of 10, which is larger.
 double student_t_975(std::size_t degrees);
 

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 using namespace hoof::tools;
 
@@ -22,6 +23,18 @@ TEST_CASE("a sample below one has the same scatter and no value above one") {
   CHECK(s.mean == Approx(-3));
   CHECK(s.deviation == Approx(std::sqrt(2.5)));
   CHECK(s.above_one == 0);
+}
+
+TEST_CASE("rank correlation: order alone counts, ties share a rank") {
+  CHECK(rank_correlation({1, 2, 3, 4}, {10, 200, 201, 1e6}) == Approx(1));
+  CHECK(rank_correlation({1, 2, 3, 4}, {4, 1, 0, -7}) == Approx(-1));
+  // 1 - 6 sum d^2 / (n (n^2 - 1)) without ties: d = 1, -1, 0, 1, -1 of five.
+  CHECK(rank_correlation({1, 2, 3, 4, 5}, {2, 1, 3, 5, 4}) == Approx(1 - 6.0 * 4 / (5 * 24)));
+  // Ranks 1, 2.5, 2.5, 4 against 1, 2, 3, 4: 4.5 / sqrt(4.5 * 5).
+  CHECK(rank_correlation({0, 7, 7, 9}, {1, 2, 3, 4}) == Approx(4.5 / std::sqrt(22.5)));
+  CHECK(std::isnan(rank_correlation({1, 1, 1}, {1, 2, 3})));
+  CHECK(std::isnan(rank_correlation({}, {})));
+  CHECK_THROWS_AS(rank_correlation({1}, {1, 2}), std::invalid_argument);
 }
 
 TEST_CASE("one value has no scatter that could be known; runs that failed do not count") {
