@@ -1,4 +1,5 @@
-// How a simulator tells a firmware in another process what time it is, and learns that it is done.
+// How a simulator tells a firmware in another process, or in an emulator behind serial lines, what
+// time it is, and learns that it is done.
 //
 // In lock-step the two processes exchange the foot's own frames and, between them, these three,
 // with 29-bit identifiers that no board uses. They are part of the way the frames travel, as a

@@ -46,6 +46,7 @@ LockStepBoard::Word LockStepBoard::obey(const lock_step::Go& go) {
   return Word::kGo;
 }
 
+/// All that was sent in a step leaves before its Done, on both lines.
 void LockStepBoard::answer(std::int64_t due_ns) {
   send_all();
   if (!asked_) return;
@@ -53,10 +54,9 @@ void LockStepBoard::answer(std::int64_t due_ns) {
   send_all();
 }
 
-/// By hand: QEMU before 8.2 raises no interrupt for an empty transmit register. On line 1 first, so
-/// that nothing of a step comes after Done.
+/// By hand: QEMU before 8.2 raises no interrupt for an empty transmit register.
 void LockStepBoard::send_all() {
-  for (const std::size_t i : {1u, 0u}) {
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
     for (std::size_t byte = 0; byte <= SerialLine::kBuffer && !lines_[i]->all_sent(); ++byte) {
       const hal::InterruptLock lock;
       lines_[i]->on_interrupt(*serial_[i], clock_.now_ns());

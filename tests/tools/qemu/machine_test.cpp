@@ -107,6 +107,11 @@ TEST_CASE("QEMU with an image that says nothing: what did not come is named, and
                                            0x00, 0x00, 0x08, 0xFE, 0xE7};
   std::copy(begin.begin(), begin.end(), flash.begin());
   CHECK_THROWS_WITH(QemuLine(flash, kShort_ns), Contains("USART1") && Contains("3000 ms"));
+  // ldr r0, [pc, #4]; ldr r1, [pc, #8]; str r1, [r0]; b .; AIRCR, SYSRESETREQ (ARM DDI 0403E).
+  const std::vector<std::uint8_t> reset = {0x01, 0x48, 0x02, 0x49, 0x01, 0x60, 0xFE, 0xE7,
+                                           0x0C, 0xED, 0x00, 0xE0, 0x04, 0x00, 0xFA, 0x05};
+  std::copy(reset.begin(), reset.end(), flash.begin() + 8);
+  CHECK_THROWS_WITH(QemuLine(flash, test::kPatience_ns), Contains("the image has reset itself"));
   // Erased flash: the core locks up, QEMU ends and says so.
   flash.assign(flash.size(), 0xFF);
   CHECK_THROWS_WITH(QemuLine(flash, test::kPatience_ns),

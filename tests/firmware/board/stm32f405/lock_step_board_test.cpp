@@ -22,7 +22,8 @@ struct Usart {
   std::deque<std::uint8_t> coming;
   std::string sent;
 
-  explicit Usart(tests::SimulatedRegisters& access) {
+  /// @param both what any line sends, in its order
+  Usart(tests::SimulatedRegisters& access, std::string& both) {
     access.when_read(registers.SR, [this](hal::Register&) {
       return usart::kTransmitEmpty | (coming.empty() ? 0 : usart::kReceived);
     });
@@ -31,8 +32,10 @@ struct Usart {
       coming.pop_front();
       return byte;
     });
-    access.when_written(registers.DR,
-                        [this](hal::Register&, std::uint32_t v) { sent.push_back(char(v)); });
+    access.when_written(registers.DR, [this, &both](hal::Register&, std::uint32_t v) {
+      sent.push_back(char(v));
+      both.push_back(char(v));
+    });
   }
   void hear(std::string_view text) {
     coming.insert(coming.end(), text.begin(), text.end());
@@ -59,7 +62,8 @@ std::string line(const hal::CanFrame& frame) {
 
 struct Rig {
   tests::SimulatedRegisters access;
-  Usart usart0{access}, usart1{access};
+  std::string both;
+  Usart usart0{access, both}, usart1{access, both};
   LockStepBoard board{usart0.line, usart0.bus, usart1.line, usart1.bus};
   hal::CanBus& bus0 = *board.buses()[0];
   hal::CanBus& bus1 = *board.buses()[1];
@@ -144,10 +148,13 @@ TEST_CASE("lock-step board: a step brings time, frames of both lines and room fo
   CHECK(rig.bus0.send(frame_of(0x303)) == hal::SendResult::kFull);
   CHECK(rig.bus1.send(frame_of(0x401)) == hal::SendResult::kQueued);
   CHECK(rig.bus1.send(frame_of(0x402)) == hal::SendResult::kFull);
+  rig.both.clear();
   // Due 1.5 us later: asked after two whole ones.
   rig.board.answer(51'500);
   CHECK(rig.usart1.sent == "t4010\r");
-  CHECK(rig.usart0.take_sent() == "t3010\rt3020\r" + line(encode(lock_step::Done{50, 2})));
+  const std::string done = line(encode(lock_step::Done{50, 2}));
+  CHECK(rig.usart0.take_sent() == "t3010\rt3020\r" + done);
+  CHECK(rig.both.ends_with(done));
 }
 
 TEST_CASE("lock-step board: bus-off, steps nobody waits for, time that goes back") {
