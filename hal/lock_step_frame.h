@@ -1,4 +1,5 @@
-// How a simulator tells a firmware in another process what time it is, and learns that it is done.
+// How a simulator tells a firmware in another process, or in an emulator behind serial lines, what
+// time it is, and learns that it is done.
 //
 // In lock-step the two processes exchange the foot's own frames and, between them, these three,
 // with 29-bit identifiers that no board uses. They are part of the way the frames travel, as a
@@ -129,6 +130,19 @@ constexpr std::optional<Done> decode_done(const CanFrame& frame) {
 
 constexpr std::uint32_t microseconds(std::int64_t time_ns) {
   return static_cast<std::uint32_t>(time_ns / 1000);
+}
+
+/// @param due_ns when the firmware must be asked next without any frame; any time before now: at
+/// once
+constexpr Done done(std::int64_t time_ns, std::int64_t due_ns) {
+  // Up to the next whole microsecond: asked too late by less than one, never too early.
+  const std::int64_t wait_us = (due_ns - time_ns + 999) / 1000;
+  Done done;
+  done.time_us = microseconds(time_ns);
+  if (wait_us < Done::kNever_us) {
+    done.due_in_us = wait_us > 0 ? static_cast<std::uint32_t>(wait_us) : 0;
+  }
+  return done;
 }
 
 }  // namespace hoof::hal::lock_step

@@ -46,7 +46,7 @@ bool is_command(const MessageSpec& message) {
 
 }  // namespace
 
-RemoteFoot::RemoteFoot(RemoteLine& line, std::array<hal::CanBus*, kBusCount> buses,
+RemoteFoot::RemoteFoot(FootLine& line, std::array<hal::CanBus*, kBusCount> buses,
                        std::array<hal::CanBus*, kBusCount> visitors, const hal::Clock& clock,
                        std::int64_t patience_ns)
     : line_(line), buses_(buses), visitors_(visitors), clock_(clock), patience_ns_(patience_ns) {
@@ -58,10 +58,7 @@ RemoteFoot::RemoteFoot(RemoteLine& line, std::array<hal::CanBus*, kBusCount> bus
   }
   send(0, lock_step::begin());
   if (!await_done(0)) {
-    throw std::runtime_error(line_.name() +
-                             ": the foot does not go in lock-step; start it with `hoof-firmware "
-                             "--clock lock-step`, or go with --clock real-time (a board can only "
-                             "do that)");
+    throw std::runtime_error(line_.foot() + " does not go in lock-step; " + line_.advice());
   }
   for (auto& frames : waiting_) frames.clear();
 }
@@ -83,10 +80,15 @@ void RemoteFoot::poll(std::uint32_t tick) {
     flush();
     return;
   }
-  lost_ = "hoof-firmware on " + line_.name() +
-          (left_ ? " ended before it answered SYNC " + std::to_string(tick)
-                 : " did not answer SYNC " + std::to_string(tick) + " within " +
-                       std::to_string(patience_ns_ / 1'000'000) + " ms");
+  const std::string sync = "SYNC " + std::to_string(tick);
+  const std::string why = line_.gone();
+  lost_ = line_.foot();
+  if (left_ || !why.empty()) {
+    lost_ += " ended before it answered " + sync + (why.empty() ? "" : ": " + why);
+  } else {
+    lost_ +=
+        " did not answer " + sync + " within " + std::to_string(patience_ns_ / 1'000'000) + " ms";
+  }
 }
 
 /// @return true where the firmware may have something to say to what came
@@ -134,7 +136,7 @@ void RemoteFoot::flush_line() {
   const std::int64_t give_up_ns = wall.now_ns() + patience_ns_;
   while (!line_.flush()) {
     if (wall.now_ns() >= give_up_ns) {
-      throw std::runtime_error(line_.name() + ": the interface takes no more frames");
+      throw std::runtime_error(line_.foot() + ": the interface takes no more frames");
     }
     std::this_thread::sleep_for(kFullSleep);
   }
@@ -158,7 +160,7 @@ bool RemoteFoot::await_done(std::int64_t time_ns) {
   std::int64_t give_up_ns = kNever_ns;
   hal::CanFrame frame;
   do {
-    line_.bus(0).wait(kLook_ns);
+    line_.wait(kLook_ns);
     if (!line_.one_interface()) {
       while (line_.bus(1).receive(frame)) take(1, frame, time_ns);
     }
@@ -170,7 +172,7 @@ bool RemoteFoot::await_done(std::int64_t time_ns) {
     }
     // An answer that comes with the first look, as nearly all do, needs no clock.
     if (give_up_ns == kNever_ns) give_up_ns = wall.now_ns() + patience_ns_;
-  } while (!left_ && wall.now_ns() < give_up_ns);
+  } while (!left_ && line_.gone().empty() && wall.now_ns() < give_up_ns);
   return false;
 }
 

@@ -1,4 +1,4 @@
-// A firmware in another process, in lock-step with this one over SocketCAN.
+// A firmware in another process, in lock-step with this one.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 #include "hal/lock_step_frame.h"
 #include "hil_bridge/bus_telemetry.h"
 #include "hil_bridge/firmware_node.h"
-#include "hil_bridge/remote_line.h"
+#include "hil_bridge/foot_line.h"
 #include "hil_bridge/wires.h"
 
 namespace hoof::bridge {
@@ -27,7 +27,7 @@ class RemoteFoot final : public FirmwareNode {
   /// frames of others
   /// @param patience_ns longest wait for an answer, by the wall
   /// @throws std::runtime_error where the firmware does not begin
-  RemoteFoot(RemoteLine& line, std::array<hal::CanBus*, kBusCount> buses,
+  RemoteFoot(FootLine& line, std::array<hal::CanBus*, kBusCount> buses,
              std::array<hal::CanBus*, kBusCount> visitors, const hal::Clock& clock,
              std::int64_t patience_ns);
   ~RemoteFoot();
@@ -48,7 +48,7 @@ class RemoteFoot final : public FirmwareNode {
   int free_mailboxes(int bus) const;
   void flush();
 
-  RemoteLine& line_;
+  FootLine& line_;
   std::array<hal::CanBus*, kBusCount> buses_;
   std::array<hal::CanBus*, kBusCount> visitors_;
   const hal::Clock& clock_;

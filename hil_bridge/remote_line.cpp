@@ -38,8 +38,12 @@ RemoteLine::RemoteLine(const std::string& interfaces) : name_(interfaces) {
   if (second != interfaces.substr(0, comma)) bus1_ = open(second);
 }
 
+std::string RemoteLine::advice() const {
+  return "start it with `hoof-firmware --clock lock-step`, or go with --clock real-time (a board "
+         "can only do that)";
+}
+
 bool RemoteLine::flush() {
-  // Bus 1 first: what tells the firmware to look is on bus 0.
   const bool all1 = !bus1_ || bus1_->flush() == hal::SendResult::kQueued;
   return all1 && bus0_->flush() == hal::SendResult::kQueued;
 }

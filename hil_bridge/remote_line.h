@@ -8,22 +8,23 @@
 
 #include "firmware/app/parameters.h"
 #include "hal/socketcan/socketcan_bus.h"
+#include "hil_bridge/foot_line.h"
 #include "hil_bridge/service_client.h"
 
 namespace hoof::bridge {
 
-class RemoteLine {
+class RemoteLine final : public FootLine {
  public:
   /// @param interfaces "vcan0" for both buses, or "vcan0,vcan1"
   /// @throws std::runtime_error naming the interface and what to do
   explicit RemoteLine(const std::string& interfaces);
 
-  const std::string& name() const { return name_; }
-  bool one_interface() const { return bus1_ == nullptr; }
-  hal::SocketCanBus& bus(int index) { return index == 1 && bus1_ ? *bus1_ : *bus0_; }
-
-  /// Frames given to a bus wait here until now. @return false where an interface takes no more
-  bool flush();
+  std::string foot() const override { return "hoof-firmware on " + name_; }
+  std::string advice() const override;
+  bool one_interface() const override { return bus1_ == nullptr; }
+  hal::SocketCanBus& bus(int index) override { return index == 1 && bus1_ ? *bus1_ : *bus0_; }
+  void wait(std::int64_t longest_ns) override { bus0_->wait(longest_ns); }
+  bool flush() override;
 
   /// Frames that the kernel lost on the way here; only known with the next frame.
   std::uint64_t dropped() const;

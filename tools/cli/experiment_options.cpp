@@ -158,6 +158,8 @@ std::string examples(Experiment experiment) {
            "  hoof sinkage --terrain rft --effects play.toml --conceal truth.toml --out "
            "runs/sealed\n"
            "  hoof sinkage --terrain rigid --firmware emulated\n"
+           "  hoof sinkage --terrain rigid --firmware qemu      the same image in QEMU, by its "
+           "serial lines\n"
            "  hoof sinkage --resume runs/toe-30.resume\n"
            "  hoof sinkage --bus vcan0                          firmware and plant as two "
            "processes\n"
@@ -291,9 +293,9 @@ void add_experiment_options(CLI::App& command, ExperimentOptions& options, Exper
       ->check(name_or_file({"demo"}, ".toml"));
   command
       .add_option("--firmware", options.firmware,
-                  "The loop in this process, or the board's image in an emulator")
-      ->type_name("host|emulated")
-      ->check(one_of({"host", "emulated"}));
+                  "The loop in this process, or the board's image: in our emulator, or in QEMU")
+      ->type_name("host|emulated|qemu")
+      ->check(one_of({"host", "emulated", "qemu"}));
   add_bus_options(command, options.bus);
   add_fault_options(command, options.faults);
   add_effect_options(command, options.effects, options.conceal);

@@ -30,7 +30,7 @@ struct ExperimentOptions {
   std::string soil;                 ///< of rft: preset or file
   std::string drive;                ///< firmware or prescribed
   BusOptions bus;                   ///< not given: firmware and plant in this process
-  std::string firmware;             ///< host or emulated
+  std::string firmware;             ///< host, emulated or qemu
   FaultOptions faults;              ///< put in on the way; none in a clean run
   std::string effects;              ///< file of physics beyond the nominal plant
   std::filesystem::path conceal;    ///< where those are told, and nowhere else

@@ -4,6 +4,7 @@
 
 #include "hil_bridge/remote_foot.h"
 #include "tools/emulator/emulated_firmware.h"
+#include "tools/qemu/qemu_firmware.h"
 #include "tools/run/errors.h"
 
 namespace hoof::tools {
@@ -50,8 +51,11 @@ std::string histogram_text(const char* name, const bridge::DurationHistogram& hi
 
 void check_bus_choice(const RunSettings& run, const BusChoice& choice) {
   if (!run.image.empty() && run.bus != kInProcess) {
-    throw UserError("--firmware emulated: the emulated board is in this process; leave out --bus");
+    throw UserError("--firmware " + run.firmware +
+                    ": the emulated board is on the simulated wires of this process; leave out "
+                    "--bus");
   }
+  if (run.in_qemu()) qemu::find_qemu();
   if (!choice.real_time) return;
   if (run.bus == kInProcess) {
     throw UserError(
@@ -103,6 +107,10 @@ void RunBus::require_presence() const {
 }
 
 bridge::FirmwareMaker RunBus::firmware() {
+  if (run_.in_qemu()) {
+    return qemu::qemu_firmware(run_.image, run_.parameters, *wires_,
+                               nanoseconds(choice_.patience_s));
+  }
   if (!run_.image.empty()) return emulator::emulated_firmware(run_.image, run_.parameters, *wires_);
   if (!remote()) return bridge::local_firmware(run_.parameters);
   if (!choice_.real_time) {

@@ -126,10 +126,10 @@ void read_experiment(const sim::Reader& root, RunSettings& run) {
   section.choice("kind", run.kind, {"sinkage", "traction"});
   section.choice("terrain", run.terrain, {"dem", "rft", "rigid"});
   section.text("bus", run.bus);
-  std::string firmware, image;
-  section.choice("firmware", firmware, {"host", "emulated"});
+  section.choice("firmware", run.firmware, {"host", "emulated", "qemu"});
+  std::string image;
   section.text("image", image);
-  if (firmware == "emulated") run.image = image == "built" ? built_image() : image;
+  if (run.firmware != "host") run.image = image == "built" ? built_image() : image;
   std::int64_t seed = 0;
   section.integer("seed", seed, 0, std::int64_t(1) << 53);
   run.seed = std::uint64_t(seed);

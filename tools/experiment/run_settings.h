@@ -26,9 +26,10 @@ struct RunSettings {
   sim::Settings declared;  // the same without what --effects added
   std::string kind;        // "sinkage" or "traction"
   std::string foot_name;
-  std::string terrain;  // "dem", "rft" or "rigid"
-  std::string bus;      // "in_process", or SocketCAN interfaces
-  std::string image;    // the board's, an ELF file; empty: the firmware runs in this process
+  std::string terrain;   // "dem", "rft" or "rigid"
+  std::string bus;       // "in_process", or SocketCAN interfaces
+  std::string firmware;  // "host": in this process; "emulated" or "qemu": the board's image
+  std::string image;     // of that board, an ELF file; empty with "host"
   std::uint64_t seed = 0;
   int threads = 1;
 
@@ -50,6 +51,7 @@ struct RunSettings {
   /// what only a simulator knows.
   bool concealed = false;
 
+  bool in_qemu() const { return firmware == "qemu"; }
   bool on_grains() const { return terrain == "dem"; }
   bool is_sinkage() const { return kind == "sinkage"; }
   double toe_rad() const { return is_sinkage() ? sinkage.toe_rad : traction.toe_rad; }

@@ -113,7 +113,7 @@ Json firmware_identity(const RunSettings& run) {
   char hash[11];
   std::snprintf(hash, sizeof hash, "0x%08x", firmware::protocol::kProtocolHash);
   if (!run.image.empty()) {
-    return {{"runs_on", "emulated STM32F405"},
+    return {{"runs_on", run.in_qemu() ? "STM32F405 in QEMU" : "emulated STM32F405"},
             {"sha256", sha256_hex_of_file(run.image)},
             {"protocol_hash", hash}};
   }

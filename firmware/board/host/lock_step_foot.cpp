@@ -47,8 +47,8 @@ LockStepFoot::LockStepFoot(const Options& options, const app::Parameters& parame
   // No acceptance filters: frames of nobody are counted as by a foot in the simulator's process.
   socket0_ = open(options.bus0);
   if (options.bus1 != options.bus0) socket1_ = open(options.bus1);
-  buses_[0] = std::make_unique<SteppedConnection>(*socket0_);
-  buses_[1] = std::make_unique<SteppedConnection>(socket1_ ? *socket1_ : *socket0_);
+  buses_[0] = std::make_unique<Connection>(*socket0_);
+  buses_[1] = std::make_unique<Connection>(socket1_ ? *socket1_ : *socket0_);
   for (const auto& bus : buses_) bus->allow(hal::lock_step::kMostFree, false);
   start_loop(parameters);
 }
@@ -161,14 +161,7 @@ void LockStepFoot::step(const hal::lock_step::Go& go) {
 }
 
 void LockStepFoot::answer(std::int64_t time_ns) {
-  // Up to the next whole microsecond: asked too late by less than one, never too early.
-  const std::int64_t wait_us = (loop_->next_due_ns() - time_ns + 999) / 1000;
-  hal::lock_step::Done done;
-  done.time_us = hal::lock_step::microseconds(time_ns);
-  if (wait_us < hal::lock_step::Done::kNever_us) {
-    done.due_in_us = wait_us > 0 ? static_cast<std::uint32_t>(wait_us) : 0;
-  }
-  send_now(encode(done));
+  send_now(encode(hal::lock_step::done(time_ns, loop_->next_due_ns())));
 }
 
 void LockStepFoot::run_on(const char* why) {

@@ -10,7 +10,7 @@
 #include "firmware/app/control_loop.h"
 #include "firmware/board/host/lock_step_clock.h"
 #include "firmware/board/host/options.h"
-#include "firmware/board/host/stepped_connection.h"
+#include "firmware/board/stepped_connection.h"
 #include "hal/in_process/soft_board.h"
 #include "hal/lock_step_frame.h"
 #include "hal/socketcan/socketcan_bus.h"
@@ -35,6 +35,9 @@ class LockStepFoot {
   }
 
  private:
+  static constexpr std::size_t kMostWaiting = 4096;  // of a flood from elsewhere
+  using Connection = SteppedConnection<hal::SocketCanBus, kMostWaiting>;
+
   void start_loop(const app::Parameters& parameters);
   void free_step();
   void listen(std::int64_t longest_ns);
@@ -53,7 +56,7 @@ class LockStepFoot {
   app::Storage* storage_;
   std::unique_ptr<hal::SocketCanBus> socket0_;
   std::unique_ptr<hal::SocketCanBus> socket1_;  // null where one interface carries both buses
-  std::array<std::unique_ptr<SteppedConnection>, protocol::kBusCount> buses_;
+  std::array<std::unique_ptr<Connection>, protocol::kBusCount> buses_;
   LockStepClock clock_;
   hal::SoftBoard board_;
   std::optional<app::ControlLoop> loop_;

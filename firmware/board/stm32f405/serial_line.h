@@ -26,6 +26,7 @@ class SerialLine {
   /// @return false where there is no room for all of it: nothing is sent then
   bool write(std::span<const std::uint8_t> bytes);
   std::size_t room() const { return kBuffer - (written_ - sent_); }
+  bool all_sent() const { return written_ == sent_; }
 
   void on_interrupt(hal::slcan::SlcanBus<SerialLine>& listener, std::int64_t now_ns);
 

@@ -67,4 +67,14 @@ void System::rest() {
   if (!waiting) asm volatile("dsb\n\twfi" ::: "memory");
 }
 
+bool System::only_core_and_lines() const {
+  return stm32f405::only_core_and_lines(rcc_registers(), port_a(), port_b(), can1_registers());
+}
+
+void System::rest_by_lines() {
+  const hal::InterruptLock lock;
+  const bool waiting = serial0.frame_waiting() || !line0.all_sent() || !line1.all_sent();
+  if (!waiting) asm volatile("dsb\n\twfi" ::: "memory");
+}
+
 }  // namespace hoof::firmware::stm32f405

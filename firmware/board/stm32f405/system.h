@@ -4,6 +4,7 @@
 #include "firmware/board/stm32f405/clock_tree.h"
 #include "firmware/board/stm32f405/flash_memory.h"
 #include "firmware/board/stm32f405/foot_board.h"
+#include "firmware/board/stm32f405/lock_step_board.h"
 #include "firmware/board/stm32f405/serial_line.h"
 #include "firmware/board/stm32f405/system_clock.h"
 #include "firmware/board/stm32f405/watchdog.h"
@@ -12,7 +13,6 @@
 
 namespace hoof::firmware::stm32f405 {
 
-using SerialBus = hal::slcan::SlcanBus<SerialLine>;
 using FootBus = hal::FallbackBus<hal::bxcan::BxCanBus, SerialBus>;
 
 struct System {
@@ -33,9 +33,14 @@ struct System {
   /// Watchdog, clocks, pins, buses, interrupts, in this order. Every wait in it is bounded.
   void start();
 
+  /// As lock_step_board.h has it. After start().
+  bool only_core_and_lines() const;
+
   /// Once per turn of the main loop: buses joining and recovering, then sleep until an interrupt.
   /// Does not sleep while a frame waits.
   void rest();
+  /// The same where nothing but the lines can bring anything.
+  void rest_by_lines();
 };
 
 System& system();

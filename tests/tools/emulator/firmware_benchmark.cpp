@@ -1,5 +1,5 @@
 // hoof benchmark firmware: how fast the emulated image runs, with the rig on the rigid floor, and
-// what its control ticks cost on the board.
+// what its control ticks cost on the board; whether host, emulator and QEMU agree.
 #include <chrono>
 #include <cstdio>
 #include <iostream>
@@ -7,16 +7,38 @@
 #include "tests/firmware/cost/cycle_rule.h"
 #include "tests/tools/emulator/cost_run.h"
 #include "tests/tools/emulator/image_bench.h"
+#include "tests/tools/qemu/agreement.h"
+#include "tests/tools/qemu/qemu_bench.h"
 
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double seconds(const hoof::tools::RunSettings& run, const hoof::test::FirmwareOn& firmware,
-               std::uint32_t& ticks) {
+template <typename Run>
+double seconds_of(const Run& run) {
   const auto start = Clock::now();
-  ticks = hoof::test::record_run(run, firmware).result.ticks;
+  run();
   return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Commands of the three runners over the whole test, byte for byte, and QEMU's speed once it runs.
+void print_agreement(const hoof::tools::RunSettings& run) {
+  using namespace hoof::test;
+  const RunRecord by_host = record_run(run, host(run)), by_emulator = record_run(run, image(run));
+  std::printf(
+      "{\"case\": \"%s\", \"agreement_of\": %u, \"commands\": %zu, \"same_in_emulator\": %zu",
+      run.kind.c_str(), by_host.result.ticks, command_count(by_host),
+      agreed_commands(by_host, by_emulator));
+  if (qemu_is_here()) {
+    RunRecord by_qemu;
+    const double start_s = seconds_of([&] { record_run(run, in_qemu(run), 1); });
+    const double whole_s = seconds_of([&] { by_qemu = record_run(run, in_qemu(run)); });
+    std::printf(", \"same_in_qemu\": %zu, \"qemu_ticks_per_s\": %.0f, \"qemu_start_s\": %.2f",
+                agreed_commands(by_host, by_qemu), by_qemu.result.ticks / (whole_s - start_s),
+                start_s);
+  }
+  std::printf("}\n");
+  std::fflush(stdout);
 }
 
 double us(double cycles) {
@@ -49,12 +71,17 @@ int main() {
     for (const char* kind : {"sinkage", "traction"}) {
       const auto run = hoof::test::rigid_run(kind);
       std::uint32_t ticks = 0;
-      const double host_s = seconds(run, hoof::test::host(run), ticks);
-      const double image_s = seconds(run, hoof::test::image(run), ticks);
+      const auto seconds = [&](const hoof::test::FirmwareOn& firmware) {
+        return seconds_of([&] { ticks = hoof::test::record_run(run, firmware).result.ticks; });
+      };
+      const double host_s = seconds(hoof::test::host(run));
+      const double image_s = seconds(hoof::test::image(run));
       std::cout << "{\"case\": \"" << kind << "\", \"ticks\": " << ticks
                 << ", \"host_ticks_per_s\": " << int(ticks / host_s)
                 << ", \"image_ticks_per_s\": " << int(ticks / image_s)
-                << ", \"image_alone_us_per_tick\": " << (image_s - host_s) / ticks * 1e6 << "}\n";
+                << ", \"image_alone_us_per_tick\": " << (image_s - host_s) / ticks * 1e6 << "}"
+                << std::endl;
+      print_agreement(run);
     }
     std::cout << std::flush;
     print_cost("sinkage", hoof::test::measure_sinkage_cost());

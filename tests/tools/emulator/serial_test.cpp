@@ -1,6 +1,7 @@
 // The image in lock-step by its serial lines, nothing but silence on CAN: the same commands.
 #include <catch2/catch.hpp>
 
+#include "hal/lock_step_frame.h"
 #include "hal/slcan/line.h"
 #include "tests/tools/emulator/image_bench.h"
 
@@ -96,4 +97,35 @@ TEST_CASE("serial lines: sinkage and traction, the commands are those of the loo
       REQUIRE(a[i] == b[i]);
     }
   }
+}
+
+TEST_CASE("serial lines: a part that has clocks of its own takes no time from outside") {
+  namespace lock_step = hal::lock_step;
+  const bool crystal_dead = GENERATE(false, true);  // then CAN is off, too
+  const bool pll_dead = crystal_dead && GENERATE(false, true);
+  CAPTURE(crystal_dead, pll_dead);
+  hal::RamFlash flash = tools::emulator::flash_with({});
+  Board board(tools::emulator::read_elf_file(test::image_file()), flash);
+  board.set_clock_faults({.crystal_dead = crystal_dead, .pll_dead = pll_dead});
+  board.power_on();
+  const auto tell = [&board](const hal::CanFrame& frame) {
+    const hal::slcan::Line line = hal::slcan::line_of(frame);
+    board.hear(0, {line.text.begin(), line.text.begin() + std::ptrdiff_t(line.length)});
+  };
+  const auto run_ms = [&board](int ms) {
+    for (int i = 0; i < ms; ++i) board.advance_to(board.next_tick());
+  };
+  run_ms(20);
+  board.hear(0, "O\r");
+  board.take_said(0);
+  tell(lock_step::begin());
+  tell(encode(lock_step::Go{.time_ns = 60'000'000'000}));
+  run_ms(1000);
+  const std::string said = board.take_said(0);
+  CHECK(said.find("T") == std::string::npos);  // no Done, which has a 29-bit identifier
+  std::size_t beats = 0;
+  for (std::size_t at = 0; (at = said.find("t050", at)) != std::string::npos; ++at) ++beats;
+  CHECK(beats >= 10);  // every 100 ms of its own, and where it changed sooner
+  CHECK(beats <= 11);
+  CHECK(board.resets() == 0);
 }

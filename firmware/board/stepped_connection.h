@@ -2,38 +2,40 @@
 // what is sent goes out at once, but no more than the simulated controller has room for.
 #pragma once
 
-#include <deque>
+#include <cstddef>
+#include <cstdint>
 
-#include "hal/socketcan/socketcan_bus.h"
+#include "firmware/app/fixed_queue.h"
+#include "hal/can_bus.h"
 
 namespace hoof::firmware::board {
 
+/// @tparam Way that the frames go by, a final hal::CanBus  @tparam kMostWaiting one more is dropped
+template <typename Way, std::size_t kMostWaiting>
 class SteppedConnection final : public hal::CanBus {
  public:
-  explicit SteppedConnection(hal::SocketCanBus& socket) : socket_(socket) {}
+  explicit SteppedConnection(Way& way) : way_(way) {}
 
   /// From now on: room for so many frames, and whether the controller has left its bus.
   void allow(int free, bool bus_off) {
-    free_ = free;
+    status_.free = static_cast<std::uint8_t>(free);
     status_.bus_off = bus_off;
   }
 
   void put(const hal::CanFrame& frame) {
-    if (waiting_.size() < kMostWaiting) {
-      waiting_.push_back(frame);
-    } else {
-      ++status_.dropped;
-    }
+    if (!waiting_.put(frame)) ++status_.dropped;
   }
 
-  void clear() { waiting_.clear(); }
+  void clear() {
+    while (!waiting_.empty()) waiting_.drop();
+  }
 
   hal::SendResult send(const hal::CanFrame& frame) override {
     if (status_.bus_off) return hal::SendResult::kBusOff;
-    if (free_ <= 0) return hal::SendResult::kFull;
-    const hal::SendResult result = socket_.send(frame);
+    if (status_.free == 0) return hal::SendResult::kFull;
+    const hal::SendResult result = way_.send(frame);
     if (result == hal::SendResult::kQueued) {
-      --free_;
+      --status_.free;
       ++status_.sent;
     }
     return result;
@@ -42,7 +44,7 @@ class SteppedConnection final : public hal::CanBus {
   bool receive(hal::CanFrame& frame) override {
     if (waiting_.empty()) return false;
     frame = waiting_.front();
-    waiting_.pop_front();
+    waiting_.drop();
     ++status_.received;
     return true;
   }
@@ -50,12 +52,9 @@ class SteppedConnection final : public hal::CanBus {
   hal::BusStatus status() const override { return status_; }
 
  private:
-  static constexpr std::size_t kMostWaiting = 4096;  // of a flood from elsewhere
-
-  hal::SocketCanBus& socket_;
-  std::deque<hal::CanFrame> waiting_;
+  Way& way_;
+  app::FixedQueue<hal::CanFrame, kMostWaiting> waiting_;
   hal::BusStatus status_;
-  int free_ = 0;
 };
 
 }  // namespace hoof::firmware::board
