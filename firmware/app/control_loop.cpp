@@ -91,6 +91,9 @@ void ControlLoop::poll() {
   send_heartbeat_if_due(now_ns);
   outbox_.flush(*buses_[0]);
   keep_fault_log(now_ns);
+  // A stop brakes with the damping of the drives; behind it, and in an e-stop, they get nothing.
+  const Mode mode = controller_.mode();
+  board_.allow_drives(mode != Mode::kEmergencyOff && mode != Mode::kFault);
   if (cycle_.finished()) board_.feed_watchdog();
 }
 
@@ -191,6 +194,7 @@ void ControlLoop::tick(std::int64_t now_ns, std::uint32_t elapsed_ticks) {
   ++counters_.ticks;
   last_tick_ns_ = now_ns;
   trip(supply_.note(board_.supply_low(), board_.supply_V()));
+  trip(heat_.note(board_.temperature_C()));
   trip(gate_.inspect(inbox_.joints(), controller_.mode(), now_ns, elapsed_ticks));
   const control::Wish& wish = controller_.step(inbox_.joints());
   cycle_.passed(safety::Stage::kDecide);

@@ -13,6 +13,7 @@
 #include "firmware/app/storage.h"
 #include "firmware/app/telemetry.h"
 #include "firmware/control/foot_controller.h"
+#include "firmware/safety/board_heat.h"
 #include "firmware/safety/cycle_watch.h"
 #include "firmware/safety/overrun.h"
 #include "firmware/safety/supply.h"
@@ -94,6 +95,7 @@ class ControlLoop {
   safety::CycleWatch cycle_;
   safety::OverrunWatch overrun_;
   safety::SupplyWatch supply_;
+  safety::BoardHeatWatch heat_;
   Ownership ownership_;
   OrderDesk orders_;
   ServiceDesk services_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "hal/board.h"
 
@@ -15,13 +16,17 @@ class SoftBoard final : public Board {
   bool pressed = false;
   bool low = false;
   float volts = 0.0f;
-  std::uint32_t feeds = 0;  // calls of feed_watchdog()
+  float celsius = std::numeric_limits<float>::quiet_NaN();
+  bool drives_allowed = false;  // as the loop said last
+  std::uint32_t feeds = 0;      // calls of feed_watchdog()
 
   ResetCause reset_cause() const override { return cause; }
   void feed_watchdog() override { ++feeds; }
   bool emergency_stop_pressed() const override { return pressed; }
+  void allow_drives(bool allowed) override { drives_allowed = allowed; }
   bool supply_low() const override { return low; }
   float supply_V() const override { return volts; }
+  float temperature_C() const override { return celsius; }
 };
 
 }  // namespace hoof::hal

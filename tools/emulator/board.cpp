@@ -14,9 +14,12 @@ constexpr std::uint32_t kRam = 0x2000'0000, kRamBytes = 128u << 10;
 constexpr std::uint32_t kPeripherals = 0x4000'0000, kPeripheralBytes = 0x8'0000;
 constexpr std::uint32_t kSystem = 0xE000'E000, kSystemBytes = 0x1000;
 
-constexpr std::uint32_t kButtonPin = 12;
-// Clock enables: AHB1ENR of the ports, APB2ENR of USART1, APB1ENR of the others.
-constexpr std::uint32_t kPortAClock = 0, kPortBClock = 1, kCan1Clock = 25, kCan2Clock = 26;
+constexpr std::uint32_t kSystemMemory = 0x1FFF'7000, kSystemMemoryBytes = 0x1000;
+
+constexpr std::uint32_t kButtonPin = 12, kEnablePin = 8, kTimer1Function = 1;
+// Clock enables: AHB1ENR of the ports, APB2ENR of TIM1, USART1 and ADC1, APB1ENR of the others.
+constexpr std::uint32_t kPortAClock = 0, kPortBClock = 1, kPortCClock = 2;
+constexpr std::uint32_t kTimer1Clock = 0, kAdc1Clock = 8, kCan1Clock = 25, kCan2Clock = 26;
 constexpr std::uint32_t kPowerClock = 28, kUsart2Clock = 17, kUsart1Clock = 4;
 
 }  // namespace
@@ -34,6 +37,7 @@ Board::Board(ElfFile image, hal::RamFlash& flash)
   cpu_.map_memory(kFlash, kData - kFlash, Cpu::Access::kReadExecute);
   cpu_.map_memory(kAfterData, kFlash + kFlashBytes - kAfterData, Cpu::Access::kReadExecute);
   cpu_.map_memory(kRam, kRamBytes, Cpu::Access::kAll);
+  cpu_.map_memory(kSystemMemory, kSystemMemoryBytes, Cpu::Access::kReadExecute);
   cpu_.map_registers(kData, FlashController::kDataBytes, *this);
   cpu_.map_registers(kPeripherals, kPeripheralBytes, *this);
   cpu_.map_registers(kSystem, kSystemBytes, *this);
@@ -45,6 +49,8 @@ void Board::load_image() {
   const std::vector<std::uint8_t> erased(kFlashBytes, 0xFF);
   cpu_.write_memory(kFlash, erased.data(), kData - kFlash);
   cpu_.write_memory(kAfterData, erased.data(), kFlash + kFlashBytes - kAfterData);
+  const auto factory = Adc::factory_calibration();
+  cpu_.write_memory(Adc::kFactoryAddress, factory.data(), sizeof factory);
   for (const ElfFile::Segment& s : image_.segments) {
     if (!cpu_.write_memory(s.load_address, s.bytes.data(), s.bytes.size())) {
       throw EmulatorError("the image has " + std::to_string(s.bytes.size()) + " bytes at " +
@@ -66,6 +72,26 @@ void Board::hear(std::size_t bus, const std::string& bytes, std::uint32_t baud) 
 /// The button's loop feeds 3.3 V to the pin; pressed, it is open.
 void Board::press_emergency_stop(bool pressed) {
   port_b_.wire_high(kButtonPin, !pressed);
+  timer1_.on_input();
+}
+
+/// What an input that no pin is switched to reads as is not told anywhere.
+bool Board::break_level() const {
+  if (port_b_.has_function(kButtonPin, kTimer1Function)) return port_b_.level(kButtonPin);
+  throw EmulatorError("TIM1: the break is on, and no pin is its input");
+}
+
+double Board::drive_enable_Hz() const {
+  return powered_ && port_a_.has_function(kEnablePin, kTimer1Function) ? timer1_.wave_Hz() : 0;
+}
+
+void Board::set_clock_faults(const ClockFaults& faults) {
+  const bool fails = faults.crystal_dead && rcc_.from_crystal() && powered_;
+  rcc_.set_faults(faults);
+  if (!fails) return;
+  if (!rcc_.fail_crystal()) throw EmulatorError("the crystal fails, and nobody watches it");
+  timer1_.on_clock_failure();
+  nvic_.pend(exception::kNmi);
 }
 
 void Board::power_on() {
@@ -97,6 +123,9 @@ void Board::start(hal::ResetCause cause) {
   pwr_.reset();
   port_a_.reset();
   port_b_.reset();
+  port_c_.reset();
+  timer1_.reset();
+  adc_.reset();
   for (Usart& usart : usart_) usart.reset();
   for (const auto& can : can_) can->reset();
   core_.reset(kFlash);
@@ -161,7 +190,8 @@ void Board::advance_to(Cycles t) {
     if (iwdg_.running()) next = std::min(next, iwdg_.deadline());
     time_.now = std::max(time_.now, next);
     system_tick_.advance();
-    const bool waiting = time_.now >= t && advance_buses(false);
+    const bool arrived = time_.now >= t;
+    const bool waiting = arrived && advance_buses(false);
     if (iwdg_.expired()) {
       start(hal::ResetCause::kWatchdog);
       run();
@@ -170,7 +200,8 @@ void Board::advance_to(Cycles t) {
     } else if (time_.now >= t && waiting) {
       advance_buses(true);  // nobody takes them
     }
-    if (!powered_ || (time_.now >= t && !waiting)) return;
+    // A core that came to t by waiting for the flash has not seen what the buses bring at t.
+    if (!powered_ || ((arrived || time_.now > t) && !waiting)) return;
     if (state_ == State::kStuck && time_.now >= t) return;
   }
 }
@@ -192,6 +223,10 @@ Peripheral& Board::peripheral_at(std::uint32_t address, std::uint32_t& offset) {
       return iwdg_;
     case 0x4000'4400:
       return with_clock(usart_[1], rcc_.apb1_on(kUsart2Clock));
+    case 0x4001'0000:
+      return with_clock(timer1_, rcc_.apb2_on(kTimer1Clock));
+    case 0x4001'2000:
+      return with_clock(adc_, rcc_.apb2_on(kAdc1Clock));
     case 0x4001'1000:
       return with_clock(usart_[0], rcc_.apb2_on(kUsart1Clock));
     case 0x4000'6400:
@@ -204,6 +239,8 @@ Peripheral& Board::peripheral_at(std::uint32_t address, std::uint32_t& offset) {
       return with_clock(port_a_, rcc_.ahb1_on(kPortAClock));
     case 0x4002'0400:
       return with_clock(port_b_, rcc_.ahb1_on(kPortBClock));
+    case 0x4002'0800:
+      return with_clock(port_c_, rcc_.ahb1_on(kPortCClock));
     case 0x4002'3800:
       return rcc_;
     case 0x4002'3C00:

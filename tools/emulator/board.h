@@ -9,6 +9,7 @@
 
 #include "hal/board.h"
 #include "hal/in_process/ram_flash.h"
+#include "tools/emulator/adc.h"
 #include "tools/emulator/bxcan.h"
 #include "tools/emulator/core.h"
 #include "tools/emulator/elf_file.h"
@@ -18,6 +19,7 @@
 #include "tools/emulator/pwr.h"
 #include "tools/emulator/rcc.h"
 #include "tools/emulator/system_tick.h"
+#include "tools/emulator/timer1.h"
 #include "tools/emulator/usart.h"
 
 namespace hoof::tools::emulator {
@@ -52,9 +54,19 @@ class Board final : private RegisterSpace {
   /// Bytes come on the serial line in place of a bus; the image runs where they wake it.
   void hear(std::size_t bus, const std::string& bytes, std::uint32_t baud = 1'000'000);
   std::string take_said(std::size_t bus) { return usart_[bus].take_sent(); }
+  /// Acts on the drives' line at once; the image wakes when time goes on.
   void press_emergency_stop(bool pressed);
+  /// The square wave on the line that lets the drives have torque; 0 where there is none.
+  double drive_enable_Hz() const;
+  void set_voltages(const BoardVoltages& voltages) { adc_.set_voltages(voltages); }
+  const BoardVoltages& voltages() const { return adc_.voltages(); }
+  void set_converter_dead(bool dead) { adc_.set_dead(dead); }
   void set_supply_low(bool low) { pwr_.set_supply_low(low); }
-  void set_clock_faults(const ClockFaults& faults) { rcc_.set_faults(faults); }
+  /// A crystal that fails while the core runs by it is told by the clock security system, if that
+  /// is on; without it the core stands still for good.
+  void set_clock_faults(const ClockFaults& faults);
+  /// SysTick stands: it counts no more, or again.
+  void set_tick_stuck(bool stuck) { system_tick_.set_stuck(stuck); }
   void set_watchdog_oscillator_Hz(std::uint32_t hertz) { iwdg_.set_oscillator_Hz(hertz); }
 
   std::uint32_t resets() const { return resets_; }  // since power-on
@@ -77,6 +89,7 @@ class Board final : private RegisterSpace {
   void run_core();
   void spend(Cycles cycles);
   bool advance_buses(bool overrun);
+  bool break_level() const;
 
   ElfFile image_;
   BoardTime time_;
@@ -89,7 +102,10 @@ class Board final : private RegisterSpace {
   FlashController flash_;
   Iwdg iwdg_{time_};
   Pwr pwr_;
-  Gpio port_a_{Gpio::kPortA}, port_b_{Gpio::kPortB};
+  Gpio port_a_{Gpio::kPortA}, port_b_{Gpio::kPortB}, port_c_{Gpio::kPortC};
+  Timer1 timer1_{nvic_, [this] { return break_level(); }, [this] { return rcc_.timer2_MHz(); }};
+  Adc adc_{time_, [this] { return rcc_.apb2_MHz(); },
+           [this](std::uint32_t) { return port_c_.mode(0) == Gpio::Mode::kAnalog; }};
   CanFilters filters_;
   std::array<std::unique_ptr<BxCan>, kBuses> can_;
   std::array<Usart, kBuses> usart_{Usart{1, 37, nvic_, [this] { return rcc_.apb2_MHz(); }},

@@ -21,6 +21,7 @@ class Gpio final : public Peripheral {
   };
   static constexpr Fresh kPortA = {"GPIO A", 0xA800'0000, 0x0C00'0000, 0x6400'0000};
   static constexpr Fresh kPortB = {"GPIO B", 0x0000'0280, 0x0000'00C0, 0x0000'0100};
+  static constexpr Fresh kPortC = {"GPIO C", 0, 0, 0};
 
   explicit Gpio(const Fresh& fresh) : fresh_(fresh) {}
 
@@ -52,6 +53,11 @@ class Gpio final : public Peripheral {
     driven_high_ = (driven_high_ & ~(1u << pin)) | std::uint32_t{high} << pin;
   }
 
+  /// What a pin that is not an output has: 1 or 0.
+  bool level(std::uint32_t pin) const { return (levels() >> pin & 1) != 0; }
+  bool has_function(std::uint32_t pin, std::uint32_t function) const {
+    return mode(pin) == Mode::kAlternate && alternate(pin) == function;
+  }
   Mode mode(std::uint32_t pin) const { return Mode(registers_[kModes / 4] >> (2 * pin) & 3); }
   std::uint32_t alternate(std::uint32_t pin) const {
     return registers_[(kAlternates + 4 * (pin / 8)) / 4] >> (4 * (pin % 8)) & 0xF;

@@ -15,6 +15,7 @@ enum Offset {
 
 constexpr std::uint32_t kInternal = 1u << 0, kInternalReady = 1u << 1;
 constexpr std::uint32_t kCrystal = 1u << 16, kCrystalReady = 1u << 17;
+constexpr std::uint32_t kCrystalWatched = 1u << 19;
 constexpr std::uint32_t kPllOn = 1u << 24, kPllReady = 1u << 25;
 constexpr std::uint32_t kWritable = 1u << 24 | 0xDu << 16 | 0xF9u;
 constexpr std::uint32_t kPllFromCrystal = 1u << 22;
@@ -126,6 +127,18 @@ std::uint32_t Rcc::apb1_MHz() const {
 std::uint32_t Rcc::apb2_MHz() const {
   const std::uint32_t divider = configuration_ >> 13 & 7;
   return divider < 4 ? core_MHz_ : core_MHz_ >> (divider - 3);
+}
+
+std::uint32_t Rcc::timer2_MHz() const {
+  return (configuration_ >> 13 & 7) < 4 ? apb2_MHz() : 2 * apb2_MHz();
+}
+
+bool Rcc::fail_crystal() {
+  if ((control_ & kCrystalWatched) == 0) return false;
+  control_ &= ~(kCrystal | kCrystalReady | kPllOn | kPllReady);
+  configuration_ &= ~3u;
+  switch_clock();
+  return true;
 }
 
 std::uint32_t Rcc::read(std::uint32_t offset) {

@@ -31,10 +31,15 @@ class Rcc final : public Peripheral {
 
   void note_reset(hal::ResetCause cause);
   void set_faults(const ClockFaults& faults) { faults_ = faults; }
+  /// The running crystal fails: the clock security system switches it and its PLL off and the core
+  /// to the internal oscillator. @return false where it is not on
+  bool fail_crystal();
 
   std::uint32_t core_MHz() const { return core_MHz_; }
   std::uint32_t apb1_MHz() const;
   std::uint32_t apb2_MHz() const;
+  /// Of the timers on APB2: twice its clock where that is divided.
+  std::uint32_t timer2_MHz() const;
   bool ahb1_on(std::uint32_t bit) const { return (ahb1_ >> bit & 1) != 0; }
   bool apb1_on(std::uint32_t bit) const { return (apb1_ >> bit & 1) != 0; }
   bool apb2_on(std::uint32_t bit) const { return (apb2_ >> bit & 1) != 0; }

@@ -19,7 +19,7 @@ void SystemTick::reset() {
 
 /// Zero in this cycle, the reload value in the next, zero again a period later.
 void SystemTick::start() {
-  next_ = time_.now + period();
+  next_ = now() + period();
 }
 
 void SystemTick::set_core_MHz(std::uint32_t megahertz) {
@@ -27,8 +27,19 @@ void SystemTick::set_core_MHz(std::uint32_t megahertz) {
   if (running()) start();
 }
 
+void SystemTick::set_stuck(bool stuck) {
+  if (stuck == stuck_) return;
+  if (stuck) {
+    advance();
+    stuck_at_ = time_.now;
+  } else {
+    next_ += running() ? time_.now - stuck_at_ : 0;
+  }
+  stuck_ = stuck;
+}
+
 void SystemTick::advance() {
-  while (running() && next_ <= time_.now) {
+  while (running() && next_ <= now()) {
     next_ += period();
     passed_zero_ = true;
     if ((control_ & kInterrupt) != 0) nvic_.pend(exception::kSysTick);
@@ -46,7 +57,7 @@ std::uint32_t SystemTick::read(std::uint32_t offset) {
       return reload_;
     case kCurrent: {
       if (!running()) return 0;
-      const Cycles left = (next_ - time_.now) * core_MHz_ / 168;
+      const Cycles left = (next_ - now()) * core_MHz_ / 168;
       return left > Cycles(reload_) ? 0 : std::uint32_t(left);
     }
     default:

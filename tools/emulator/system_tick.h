@@ -25,12 +25,15 @@ class SystemTick final : public Peripheral {
   /// Raises what the time since the last call brought: one tick at most is pending.
   void advance();
   /// When the counter reaches zero next.
-  Cycles next_tick() const { return running() ? next_ : kNever; }
+  Cycles next_tick() const { return running() && !stuck_ ? next_ : kNever; }
+  /// It stands: no tick comes, and the counter reads what it is at.
+  void set_stuck(bool stuck);
   /// Of the clock that it counts.
   void set_core_MHz(std::uint32_t megahertz);
 
  private:
   bool running() const { return (control_ & 1) != 0; }
+  Cycles now() const { return stuck_ ? stuck_at_ : time_.now; }
   Cycles period() const { return core_to_board(Cycles(reload_) + 1); }
   Cycles core_to_board(Cycles cycles) const { return cycles * 168 / core_MHz_; }
   void start();
@@ -42,6 +45,8 @@ class SystemTick final : public Peripheral {
   bool passed_zero_ = false;  // COUNTFLAG
   Cycles next_ = kNever;      // when it reaches zero
   std::uint32_t core_MHz_ = 16;
+  bool stuck_ = false;
+  Cycles stuck_at_ = 0;
 };
 
 }  // namespace hoof::tools::emulator

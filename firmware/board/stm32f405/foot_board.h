@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "firmware/board/stm32f405/board_meter.h"
+#include "firmware/board/stm32f405/drive_enable.h"
 #include "firmware/board/stm32f405/pins.h"
 #include "firmware/board/stm32f405/registers/gpio.h"
 #include "firmware/board/stm32f405/registers/pwr.h"
@@ -28,8 +30,13 @@ constexpr hal::ResetCause reset_cause_of(std::uint32_t csr) {
 
 class FootBoard final : public hal::Board {
  public:
-  FootBoard(RccRegisters& rcc, PwrRegisters& pwr, const GpioRegisters& port, Watchdog& watchdog)
-      : rcc_(rcc), pwr_(pwr), port_(port), watchdog_(watchdog) {}
+  /// Turns of the main loop, some six a millisecond, after which a clock that has not moved is
+  /// dead.
+  static constexpr std::uint32_t kMostTurns = 100;
+
+  FootBoard(RccRegisters& rcc, PwrRegisters& pwr, const GpioRegisters& port, Watchdog& watchdog,
+            const BoardMeter& meter, DriveEnable& enable)
+      : rcc_(rcc), pwr_(pwr), port_(port), watchdog_(watchdog), meter_(meter), enable_(enable) {}
 
   /// Before anything else resets: takes the cause and clears it, switches on the supply's watch.
   /// @pre the power interface has its clock
@@ -39,25 +46,42 @@ class FootBoard final : public hal::Board {
     pwr_.CR.set(pwr::kDetector2V9 | pwr::kDetectorOn);
   }
 
+  /// Once per turn of the main loop. Every time-out of this firmware needs a clock that goes on: on
+  /// one that stands, SYNC alone would keep the loop, and the watchdog, going.
+  void note_time(std::int64_t now_ns) {
+    turns_ = now_ns == time_ns_ ? turns_ + 1 : 0;
+    time_ns_ = now_ns;
+  }
+
   hal::ResetCause reset_cause() const override { return reset_cause_; }
-  void feed_watchdog() override { watchdog_.feed(); }
+  void feed_watchdog() override {
+    if (turns_ < kMostTurns) watchdog_.feed();
+  }
 
   /// The button's loop feeds 3.3 V to a pin that is pulled down: open, cut or shorted to ground it
-  /// reads low.
-  bool emergency_stop_pressed() const override { return !port_.IDR.has(kEmergencyStopPin.bit()); }
+  /// reads low. What was too short to be read has left the timer's break flag.
+  bool emergency_stop_pressed() const override {
+    return !port_.IDR.has(kEmergencyStopPin.bit()) || enable_.broken();
+  }
+
+  void allow_drives(bool allowed) override { enable_.allow(allowed); }
 
   /// Below 2.9 V; at 2.7 V flash can no longer be programmed.
   bool supply_low() const override { return pwr_.CSR.has(pwr::kSupplyBelow); }
 
-  /// Not measured.
-  float supply_V() const override { return 0.0f; }
+  float supply_V() const override { return meter_.supply_V(); }
+  float temperature_C() const override { return meter_.temperature_C(); }
 
  private:
   RccRegisters& rcc_;
   PwrRegisters& pwr_;
   const GpioRegisters& port_;
   Watchdog& watchdog_;
+  const BoardMeter& meter_;
+  DriveEnable& enable_;
   hal::ResetCause reset_cause_ = hal::ResetCause::kPowerOn;
+  std::int64_t time_ns_ = 0;
+  std::uint32_t turns_ = 0;  // since the clock moved
 };
 
 }  // namespace hoof::firmware::stm32f405

@@ -20,8 +20,9 @@ void enable_interrupts(NvicRegisters& nvic, ScbRegisters& scb) {
   scb.SHPR[2].change(0xFFu << 24, kPriority << 24);  // SysTick
   for (const Interrupt interrupt :
        {Interrupt::kCan1Transmit, Interrupt::kCan1Receive0, Interrupt::kCan1Receive1,
-        Interrupt::kCan1Status, Interrupt::kCan2Transmit, Interrupt::kCan2Receive0,
-        Interrupt::kCan2Receive1, Interrupt::kCan2Status, Interrupt::kUsart1, Interrupt::kUsart2}) {
+        Interrupt::kCan1Status, Interrupt::kTimer1Break, Interrupt::kCan2Transmit,
+        Interrupt::kCan2Receive0, Interrupt::kCan2Receive1, Interrupt::kCan2Status,
+        Interrupt::kUsart1, Interrupt::kUsart2}) {
     enable(nvic, interrupt);
   }
   asm volatile("cpsie i" ::: "memory");
@@ -42,6 +43,9 @@ void hoof_can1_receive1() {
 }
 void hoof_can1_status() {
   system().can0.on_status_interrupt();
+}
+void hoof_timer1_break() {
+  system().enable.on_break_interrupt();
 }
 void hoof_can2_transmit() {
   system().can1.on_transmit_interrupt();

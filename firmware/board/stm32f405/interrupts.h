@@ -15,6 +15,7 @@ void hoof_can1_transmit();
 void hoof_can1_receive0();
 void hoof_can1_receive1();
 void hoof_can1_status();
+void hoof_timer1_break();
 void hoof_can2_transmit();
 void hoof_can2_receive0();
 void hoof_can2_receive1();

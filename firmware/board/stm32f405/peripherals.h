@@ -6,12 +6,14 @@
 
 #include <cstdint>
 
+#include "firmware/board/stm32f405/registers/adc.h"
 #include "firmware/board/stm32f405/registers/core.h"
 #include "firmware/board/stm32f405/registers/flash.h"
 #include "firmware/board/stm32f405/registers/gpio.h"
 #include "firmware/board/stm32f405/registers/iwdg.h"
 #include "firmware/board/stm32f405/registers/pwr.h"
 #include "firmware/board/stm32f405/registers/rcc.h"
+#include "firmware/board/stm32f405/registers/timer.h"
 #include "firmware/board/stm32f405/registers/usart.h"
 #include "hal/bxcan/registers.h"
 
@@ -22,6 +24,9 @@ template <typename Block>
   return *reinterpret_cast<Block*>(address);
 }
 
+inline const FactoryCalibration& factory_calibration() {
+  return at<const FactoryCalibration>(0x1FFF'7A2A);
+}
 inline IwdgRegisters& iwdg_registers() {
   return at<IwdgRegisters>(0x4000'3000);
 }
@@ -37,14 +42,26 @@ inline hal::bxcan::Registers& can2_registers() {
 inline PwrRegisters& pwr_registers() {
   return at<PwrRegisters>(0x4000'7000);
 }
+inline TimerRegisters& timer1_registers() {
+  return at<TimerRegisters>(0x4001'0000);
+}
 inline UsartRegisters& usart1_registers() {
   return at<UsartRegisters>(0x4001'1000);
+}
+inline AdcRegisters& adc1_registers() {
+  return at<AdcRegisters>(0x4001'2000);
+}
+inline AdcCommonRegisters& adc_common_registers() {
+  return at<AdcCommonRegisters>(0x4001'2300);
 }
 inline GpioRegisters& port_a() {
   return at<GpioRegisters>(0x4002'0000);
 }
 inline GpioRegisters& port_b() {
   return at<GpioRegisters>(0x4002'0400);
+}
+inline GpioRegisters& port_c() {
+  return at<GpioRegisters>(0x4002'0800);
 }
 inline RccRegisters& rcc_registers() {
   return at<RccRegisters>(0x4002'3800);
@@ -71,6 +88,7 @@ enum class Interrupt : std::uint8_t {
   kCan1Receive0 = 20,
   kCan1Receive1 = 21,
   kCan1Status = 22,
+  kTimer1Break = 24,
   kUsart1 = 37,
   kUsart2 = 38,
   kCan2Transmit = 63,

@@ -23,10 +23,15 @@ inline constexpr Pin kSerial0ReceivePin{10};
 inline constexpr Pin kSerial1TransmitPin{2};
 inline constexpr Pin kSerial1ReceivePin{3};
 
-/// Also the break input of TIM1, so that one wire can stop this firmware and, one day, a timer.
+// Alternate function 1 (DS8626, table 9): the break input of TIM1 on port B, and the output that it
+// takes away on port A. The firmware reads the input's level, too.
 inline constexpr Pin kEmergencyStopPin{12};
+inline constexpr Pin kDriveEnablePin{8};
+
+/// Port C: channel 10 of ADC1.
+inline constexpr Pin kSupplyPin{0};
 
 /// @pre the ports have their clocks
-void configure_pins(GpioRegisters& port_a, GpioRegisters& port_b);
+void configure_pins(GpioRegisters& port_a, GpioRegisters& port_b, GpioRegisters& port_c);
 
 }  // namespace hoof::firmware::stm32f405

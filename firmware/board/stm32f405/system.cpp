@@ -17,7 +17,10 @@ System the_system{
     SystemClock(systick_registers(), scb_registers()),
     FlashMemory(flash_registers(), reinterpret_cast<hal::Register*>(kParameters),
                 the_system.watchdog, the_system.clock),
-    FootBoard(rcc_registers(), pwr_registers(), port_b(), the_system.watchdog),
+    BoardMeter(adc1_registers(), adc_common_registers(), factory_calibration()),
+    DriveEnable(timer1_registers()),
+    FootBoard(rcc_registers(), pwr_registers(), port_b(), the_system.watchdog, the_system.meter,
+              the_system.enable),
     BxCanBus(can1_registers()),
     BxCanBus(can2_registers()),
     SerialLine(usart1_registers()),
@@ -40,11 +43,14 @@ void System::start() {
   const Clocks clocks = start_clocks(rcc_registers(), pwr_registers(), flash_registers());
   board.start();
   clock.start(clocks.core_Hz);
-  rcc_registers().AHB1ENR.set(rcc::kPortA | rcc::kPortB);
+  rcc_registers().AHB1ENR.set(rcc::kPortA | rcc::kPortB | rcc::kPortC);
   rcc_registers().APB1ENR.set(rcc::kCan1 | rcc::kCan2 | rcc::kUsart2);
-  rcc_registers().APB2ENR.set(rcc::kUsart1);
+  rcc_registers().APB2ENR.set(rcc::kTimer1 | rcc::kUsart1 | rcc::kAdc1);
   rcc_registers().APB2ENR.read();  // a peripheral answers some cycles later (ES0182)
-  configure_pins(port_a(), port_b());
+  configure_pins(port_a(), port_b(), port_c());
+  // TIM1's clock is the core's: APB2's, twice where that is divided (RM0090, 7.2).
+  enable.start(clocks.core_Hz);
+  meter.start();
   set_can_filters(can1_registers());
   if (const std::optional<std::uint32_t> timing = can_bit_timing(clocks)) {
     can0.start(*timing);
@@ -59,6 +65,8 @@ void System::rest() {
   const std::int64_t now_ns = clock.now_ns();
   can0.maintain(now_ns);
   can1.maintain(now_ns);
+  meter.maintain(now_ns);
+  board.note_time(now_ns);
   // With interrupts masked: one that came between looking and sleeping would else be slept over.
   // WFI wakes up all the same.
   const hal::InterruptLock lock;

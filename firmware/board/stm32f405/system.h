@@ -1,7 +1,9 @@
 // The drivers of this board, each once.
 #pragma once
 
+#include "firmware/board/stm32f405/board_meter.h"
 #include "firmware/board/stm32f405/clock_tree.h"
+#include "firmware/board/stm32f405/drive_enable.h"
 #include "firmware/board/stm32f405/flash_memory.h"
 #include "firmware/board/stm32f405/foot_board.h"
 #include "firmware/board/stm32f405/lock_step_board.h"
@@ -19,6 +21,8 @@ struct System {
   Watchdog watchdog;
   SystemClock clock;
   FlashMemory flash;
+  BoardMeter meter;    // ADC1
+  DriveEnable enable;  // TIM1
   FootBoard board;
   hal::bxcan::BxCanBus can0;  // CAN1
   hal::bxcan::BxCanBus can1;  // CAN2
@@ -36,7 +40,8 @@ struct System {
   /// As lock_step_board.h has it. After start().
   bool only_core_and_lines() const;
 
-  /// Once per turn of the main loop: buses joining and recovering, then sleep until an interrupt.
+  /// Once per turn of the main loop: buses joining and recovering, the next measurement, then sleep
+  /// until an interrupt.
   /// Does not sleep while a frame waits.
   void rest();
   /// The same where nothing but the lines can bring anything.

@@ -33,6 +33,7 @@ constexpr VectorTable make_vector_table() {
   serve(Interrupt::kCan1Receive0, hoof_can1_receive0);
   serve(Interrupt::kCan1Receive1, hoof_can1_receive1);
   serve(Interrupt::kCan1Status, hoof_can1_status);
+  serve(Interrupt::kTimer1Break, hoof_timer1_break);
   serve(Interrupt::kCan2Transmit, hoof_can2_transmit);
   serve(Interrupt::kCan2Receive0, hoof_can2_receive0);
   serve(Interrupt::kCan2Receive1, hoof_can2_receive1);

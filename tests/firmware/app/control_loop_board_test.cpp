@@ -135,6 +135,43 @@ TEST_CASE("A supply that sags stops the foot; a spike of one tick does not") {
   CHECK(measured.loop->faults() == fault::kBrownOut);
 }
 
+TEST_CASE("A hot processor stops the foot") {
+  LoopBench bench;
+  bench.board.celsius = 99.0f;
+  bring_to_ready(bench);
+  bench.board.celsius = 101.0f;
+  bench.run(3);
+  CHECK(bench.loop->faults() == fault::kOverTemperature);
+  CHECK(bench.loop->mode() == Mode::kDampedStop);
+}
+
+TEST_CASE("Drives are allowed to brake in a stop, and nothing behind it until the reset") {
+  LoopBench bench;
+  CHECK_FALSE(bench.board.drives_allowed);
+  bring_to_ready(bench);
+  CHECK(bench.board.drives_allowed);
+  bench.board.celsius = 101.0f;
+  bench.run(3);
+  REQUIRE(bench.loop->mode() == Mode::kDampedStop);
+  CHECK(bench.board.drives_allowed);
+  REQUIRE(bench.run_until(Mode::kFault) > 0);
+  bench.run(1);
+  CHECK_FALSE(bench.board.drives_allowed);
+  bench.board.celsius = 40.0f;
+  CHECK(bench.order(Order::kReset) == OrderResult::kAccepted);
+  bench.run(1);
+  CHECK(bench.board.drives_allowed);
+  bench.board.pressed = true;
+  bench.run(1);
+  CHECK_FALSE(bench.board.drives_allowed);
+  bench.board.pressed = false;
+  bench.run(10);
+  CHECK_FALSE(bench.board.drives_allowed);  // released is not reset
+  CHECK(bench.order(Order::kReset) == OrderResult::kAccepted);
+  bench.run(1);
+  CHECK(bench.board.drives_allowed);
+}
+
 namespace {
 
 /// Each look at it takes time: a tick that ends later than it began by two of these.

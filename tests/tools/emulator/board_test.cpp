@@ -3,10 +3,9 @@
 
 #include <catch2/catch.hpp>
 #include <cstring>
-#include <deque>
 
-#include "firmware/protocol/codec.h"
 #include "hal/slcan/line.h"
+#include "tests/tools/emulator/board_bench.h"
 
 using namespace hoof::tools::emulator;
 using namespace hoof;
@@ -14,65 +13,9 @@ namespace protocol = hoof::firmware::protocol;
 
 namespace {
 
-/// Acknowledges everything and keeps it; sends what the test hands over.
-struct TestWire final : CanWire {
-  std::vector<hal::CanFrame>& seen;
-  std::deque<hal::CanFrame>& coming;
-  std::vector<hal::CanFrame> sent;
-
-  TestWire(std::vector<hal::CanFrame>& s, std::deque<hal::CanFrame>& c) : seen(s), coming(c) {}
-  bool offer(const hal::CanFrame& frame) override {
-    seen.push_back(frame);
-    sent.push_back(frame);
-    return true;
-  }
-  bool withdraw(const hal::CanFrame&) override { return false; }
-  bool take(hal::CanFrame& frame) override {
-    if (coming.empty()) return false;
-    frame = coming.front();
-    coming.pop_front();
-    return true;
-  }
-  std::vector<hal::CanFrame> take_sent() override { return std::exchange(sent, {}); }
-  hal::BusStatus status() const override { return {}; }
-  void join_again() override {}
-};
-
-struct Bench {
-  hal::RamFlash flash = blank_flash();
-  std::vector<hal::CanFrame> seen[2];
-  std::deque<hal::CanFrame> coming[2];
-  Board board{read_elf_file(HOOF_BOARD_IMAGE), flash};
-
-  Bench() {
-    for (std::size_t bus = 0; bus < 2; ++bus) {
-      board.connect(bus, std::make_unique<TestWire>(seen[bus], coming[bus]));
-    }
-  }
-  void run_ms(int ms) {
-    for (int i = 0; i < ms; ++i) board.advance_to(board.now() + kCyclesPerMillisecond);
-  }
-  std::optional<protocol::Heartbeat> heartbeat() const {
-    std::optional<protocol::Heartbeat> last;
-    for (const hal::CanFrame& frame : seen[0]) {
-      protocol::Heartbeat h;
-      if (decode(frame, h) == protocol::DecodeResult::kOk) last = h;
-    }
-    return last;
-  }
-  std::uint32_t word(std::uint32_t address) {
-    std::uint32_t value = 0;
-    REQUIRE(board.cpu().read_memory(address, &value, 4));
-    return value;
-  }
-  /// Replaces the instruction behind the sleep in the main loop.
-  void replace_after_sleep(std::uint16_t instruction) {
-    const std::uint32_t pc = board.cpu().registers().pc & ~1u;
-    REQUIRE(board.cpu().write_memory(pc, &instruction, 2));
-  }
-};
-
-constexpr std::uint32_t kCrashRecord = 0x2000'1000, kMagic = 0x4846'4352;
+using Bench = test::BoardBench;
+using test::kCrashRecord;
+constexpr std::uint32_t kMagic = test::kCrashMagic;
 constexpr std::uint32_t kUnexpectedReset = 1u << 19, kEmergency = 1u << 14;
 
 }  // namespace

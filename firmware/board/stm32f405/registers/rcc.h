@@ -55,14 +55,18 @@ inline constexpr std::uint32_t kSwitchedPll = 2u << 2;
 inline constexpr std::uint32_t kApb1By4 = 5u << 10;
 inline constexpr std::uint32_t kApb2By2 = 4u << 13;
 
-// AHB1ENR, APB1ENR, APB2ENR
+// AHB1ENR, APB1ENR
 inline constexpr std::uint32_t kPortA = 1u << 0;
 inline constexpr std::uint32_t kPortB = 1u << 1;
+inline constexpr std::uint32_t kPortC = 1u << 2;
 inline constexpr std::uint32_t kCan1 = 1u << 25;
 inline constexpr std::uint32_t kCan2 = 1u << 26;
 inline constexpr std::uint32_t kPower = 1u << 28;
 inline constexpr std::uint32_t kUsart2 = 1u << 17;
-inline constexpr std::uint32_t kUsart1 = 1u << 4;  // APB2ENR
+// APB2ENR
+inline constexpr std::uint32_t kTimer1 = 1u << 0;
+inline constexpr std::uint32_t kUsart1 = 1u << 4;
+inline constexpr std::uint32_t kAdc1 = 1u << 8;
 
 // CSR
 inline constexpr std::uint32_t kClearResetFlags = 1u << 24;  // RMVF

@@ -20,10 +20,16 @@ struct Rig {
   tests::SimulatedRegisters access;
   RccRegisters rcc;
   PwrRegisters pwr;
-  GpioRegisters port_a, port;
+  GpioRegisters port_a, port, port_c;
   IwdgRegisters iwdg;
+  AdcRegisters adc;
+  AdcCommonRegisters adc_common;
+  FactoryCalibration factory{1500, 960, 1207};
+  TimerRegisters timer;
   Watchdog watchdog{iwdg};
-  FootBoard board{rcc, pwr, port, watchdog};
+  BoardMeter meter{adc, adc_common, factory};
+  DriveEnable enable{timer};
+  FootBoard board{rcc, pwr, port, watchdog, meter, enable};
 };
 
 /// Pins of an alternate function, with their pull-ups.
@@ -71,7 +77,7 @@ TEST_CASE("board: each cause of a reset, with what the part sets besides") {
 
 TEST_CASE("board: the e-stop's pin is low when pressed, cut or shorted to ground, pulled down") {
   Rig rig;
-  configure_pins(rig.port_a, rig.port);
+  configure_pins(rig.port_a, rig.port, rig.port_c);
   rig.port.IDR.store(0xFFFF);
   CHECK_FALSE(rig.board.emergency_stop_pressed());
   rig.port.IDR.store(0xFFFF & ~(1u << 12));
@@ -79,14 +85,58 @@ TEST_CASE("board: the e-stop's pin is low when pressed, cut or shorted to ground
   rig.port.IDR.store(0);
   CHECK(rig.board.emergency_stop_pressed());
   CHECK((rig.port.PUPDR.stored() >> 24 & 3) == 2);
-  CHECK((rig.port.MODER.stored() >> 24 & 3) == 0);
+  // TIM1's break input; the level can be read all the same.
+  CHECK((rig.port.MODER.stored() >> 24 & 3) == 2);
+  CHECK((rig.port.AFR[1].stored() >> 16 & 15) == 1);
+}
+
+TEST_CASE("board: a press too short to be read is told until the loop has acted upon it") {
+  Rig rig;
+  rig.port.IDR.store(0xFFFF);
+  CHECK_FALSE(rig.board.emergency_stop_pressed());
+  rig.timer.SR.store(timer::kBreak);
+  CHECK(rig.board.emergency_stop_pressed());
+  rig.board.allow_drives(true);
+  CHECK(rig.board.emergency_stop_pressed());
+  rig.board.allow_drives(false);
+  CHECK_FALSE(rig.board.emergency_stop_pressed());
+}
+
+TEST_CASE("board: a watchdog is not fed by a loop whose clock stands") {
+  Rig rig;
+  int fed = 0;
+  rig.access.when_written(rig.iwdg.KR, [&](hal::Register&, std::uint32_t) { ++fed; });
+  std::int64_t now_ns = 5;
+  const auto turn = [&] {
+    rig.board.feed_watchdog();
+    rig.board.note_time(now_ns);
+  };
+  for (int i = 0; i < 1000; ++i, now_ns += 6) turn();  // a cycle of the core goes by
+  CHECK(fed == 1000);
+  for (int i = 0; i < 1000; ++i) turn();
+  CHECK(fed >= 1000 + int(FootBoard::kMostTurns));
+  CHECK(fed <= 1002 + int(FootBoard::kMostTurns));
+  now_ns += 6;  // it goes on
+  fed = 0;
+  for (int i = 0; i < 10; ++i) turn();
+  CHECK(fed == 9);
+}
+
+TEST_CASE("board: the drives' line is TIM1's, low where nothing drives it; PC0 is analog") {
+  Rig rig;
+  configure_pins(rig.port_a, rig.port, rig.port_c);
+  CHECK((rig.port_a.MODER.stored() >> 16 & 3) == 2);
+  CHECK((rig.port_a.AFR[1].stored() & 15) == 1);
+  CHECK((rig.port_a.PUPDR.stored() >> 16 & 3) == 2);
+  CHECK(rig.port_c.MODER.stored() == 3);
+  CHECK(rig.port_c.PUPDR.stored() == 0);
 }
 
 TEST_CASE("board: the CAN pins have their function, the pins of the debugger keep theirs") {
   Rig rig;
   rig.port.MODER.store(0x0000'0280);  // after reset: PB3, PB4 are the debugger's
   rig.port.PUPDR.store(0x0000'0100);
-  configure_pins(rig.port_a, rig.port);
+  configure_pins(rig.port_a, rig.port, rig.port_c);
   check_pulled_up(rig.port, {5u, 6u, 8u, 9u}, 9);
   CHECK((rig.port.MODER.stored() & 0x3FF) == 0x280);
   CHECK((rig.port.PUPDR.stored() & 0x3FF) == 0x100);
@@ -96,7 +146,7 @@ TEST_CASE("board: the serial pins have their function, SWD and USB keep theirs")
   Rig rig;
   rig.port_a.MODER.store(0xA800'0000);  // after reset: PA13 to PA15 are the debugger's
   rig.port_a.PUPDR.store(0x6400'0000);
-  configure_pins(rig.port_a, rig.port);
+  configure_pins(rig.port_a, rig.port, rig.port_c);
   check_pulled_up(rig.port_a, {2u, 3u, 9u, 10u}, 7);
   CHECK((rig.port_a.MODER.stored() >> 22) == 0xA800'0000 >> 22);
   CHECK((rig.port_a.PUPDR.stored() >> 22) == 0x6400'0000 >> 22);
