@@ -33,9 +33,15 @@ struct System {
   /// Watchdog, clocks, pins, buses, interrupts, in this order. Every wait in it is bounded.
   void start();
 
-  /// Once per turn of the main loop: buses joining and recovering, then sleep until an interrupt.
-  /// Does not sleep while a frame waits.
-  void rest();
+  /// Once per turn of the main loop: buses joining and recovering, then sleep until there is work:
+  /// a frame has come, a millisecond has passed, a bus has changed its state.
+  /// @param for_room work is also that a frame was sent: another waits for its place
+  void rest(bool for_room);
+
+  /// What the interrupts tell the main loop.
+  volatile bool work = true;   // there is some, since rest() returned
+  volatile bool room = false;  // a frame was sent, since rest() returned
+  volatile bool watch = true;  // the buses are to be looked after
 };
 
 System& system();
