@@ -43,6 +43,9 @@ class CanBus {
 
   virtual BusStatus status() const = 0;
 
+  /// status().bus_off, without the rest of it.
+  virtual bool bus_off() const { return status().bus_off; }
+
  protected:
   ~CanBus() = default;  // never deleted through the interface: keeps malloc/free off the board
 };

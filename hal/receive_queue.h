@@ -33,13 +33,24 @@ class ReceiveQueue {
   }
 
   bool take(Frame& frame) {
-    if (empty()) return false;
-    std::atomic_signal_fence(std::memory_order_acquire);
-    const std::uint32_t taken = taken_.load(std::memory_order_relaxed);
-    frame = frames_[taken % kSize];
-    std::atomic_signal_fence(std::memory_order_release);
-    taken_.store(taken + 1, std::memory_order_relaxed);
+    const Frame* first = oldest();
+    if (first == nullptr) return false;
+    frame = *first;
+    drop();
     return true;
+  }
+
+  /// Stays where it is until drop(). @return null when nothing waits
+  const Frame* oldest() const {
+    if (empty()) return nullptr;
+    std::atomic_signal_fence(std::memory_order_acquire);
+    return &frames_[taken_.load(std::memory_order_relaxed) % kSize];
+  }
+
+  /// The oldest has been read. @pre there is one
+  void drop() {
+    std::atomic_signal_fence(std::memory_order_release);
+    taken_.store(taken_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   }
 
   bool empty() const {

@@ -84,8 +84,10 @@ void ControlLoop::poll() {
   watch_button();
   read(now_ns);
   cycle_.passed(safety::Stage::kRead);
-  answer_orders(now_ns);
-  answer_services(now_ns);
+  if (inbox_.asked()) {
+    answer_orders(now_ns);
+    answer_services(now_ns);
+  }
   run_due_tick(now_ns);
   send_exit_again();
   send_heartbeat_if_due(now_ns);
@@ -100,7 +102,7 @@ void ControlLoop::poll() {
 /// At every poll: a bus that is off brings no SYNC, so no tick would notice it.
 void ControlLoop::watch_buses() {
   for (const hal::CanBus* bus : buses_) {
-    if (bus->status().bus_off) trip(fault::kBusOff);
+    if (bus->bus_off()) trip(fault::kBusOff);
   }
 }
 
@@ -232,15 +234,23 @@ void ControlLoop::write(const control::PerJoint<JointWish>& joints) {
     if (!sent) ++counters_.unsent_frames;
     exit_unsent_[i] = !sent && joints[i].action == DriveAction::kExit;
   }
+  note_exit_unsent();
 }
 
 /// Exit frames that a full or dead bus refused must not wait for the next SYNC.
 void ControlLoop::send_exit_again() {
+  if (!some_exit_unsent_) return;
   for (std::size_t i = 0; i < control::kJointCount; ++i) {
     if (!exit_unsent_[i]) continue;
     const hal::CanFrame frame = encode_switch(protocol::kDrives[i], protocol::DriveSwitch::kExit);
     exit_unsent_[i] = buses_[bus_of(i)]->send(frame) != hal::SendResult::kQueued;
   }
+  note_exit_unsent();
+}
+
+void ControlLoop::note_exit_unsent() {
+  some_exit_unsent_ = false;
+  for (const bool unsent : exit_unsent_) some_exit_unsent_ = some_exit_unsent_ || unsent;
 }
 
 void ControlLoop::trip(FaultBits faults) {
@@ -270,11 +280,9 @@ void ControlLoop::record(std::int64_t now_ns) {
   t.toe_moving = controller_.toe().moving();
   const control::LegMotion& leg = controller_.leg();
   t.leg_set_point_rad = leg.set_point_rad();
-  t.foot_set_point_m = leg.kinematics().foot_m(leg.set_point_rad());
-  const control::LegAngles measured{t.state[index(Joint::kHip)].position_rad,
-                                    t.state[index(Joint::kKnee)].position_rad};
-  t.foot_m = leg.kinematics().foot_m(measured);
-  t.foot_pitch_rad = leg.foot_pitch_rad(measured);
+  t.foot_set_point_m = leg.set_point().foot_m;
+  t.foot_m = controller_.posture().foot_m;
+  t.foot_pitch_rad = leg.foot_pitch_rad(controller_.posture().q);
   t.phase_cycles = leg.path().phase_cycles();
   t.gait_rate_Hz = leg.path().rate_Hz();
   t.ground = controller_.ground();
@@ -322,15 +330,16 @@ protocol::Heartbeat ControlLoop::next_heartbeat() const {
           protocol::kHeartbeatHash};
 }
 
-std::int64_t ControlLoop::heartbeat_due_ns(const protocol::Heartbeat& next) const {
+std::int64_t ControlLoop::heartbeat_due_ns() const {
   if (!heartbeat_sent_) return heartbeat_ns_;
-  const bool changed = next.mode != heartbeat_.mode || next.faults != heartbeat_.faults;
+  const bool changed = static_cast<protocol::Mode>(controller_.mode()) != heartbeat_.mode ||
+                       controller_.faults() != heartbeat_.faults;
   return heartbeat_ns_ + (changed ? kHeartbeatShortest_ns : kHeartbeatPeriod_ns);
 }
 
 void ControlLoop::send_heartbeat_if_due(std::int64_t now_ns) {
+  if (heartbeat_sent_ && now_ns < heartbeat_due_ns()) return;
   const protocol::Heartbeat next = next_heartbeat();
-  if (heartbeat_sent_ && now_ns < heartbeat_due_ns(next)) return;
   heartbeat_ = next;
   heartbeat_ns_ = now_ns;
   heartbeat_sent_ = true;
@@ -338,14 +347,11 @@ void ControlLoop::send_heartbeat_if_due(std::int64_t now_ns) {
 }
 
 std::int64_t ControlLoop::next_due_ns() const {
-  std::int64_t due_ns = heartbeat_due_ns(next_heartbeat());
+  std::int64_t due_ns = heartbeat_due_ns();
   const auto sooner = [&due_ns](std::int64_t t_ns) {
     if (t_ns < due_ns) due_ns = t_ns;
   };
-  if (!outbox_.empty()) sooner(0);
-  for (const bool unsent : exit_unsent_) {
-    if (unsent) sooner(0);
-  }
+  if (waits_for_room()) sooner(0);
   if (synced_) {
     sooner(last_sync_ns_ + safety::kFreshness_ns + 1);
   } else if (controller_.mode() == Mode::kDampedStop) {

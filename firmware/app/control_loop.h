@@ -48,6 +48,10 @@ class ControlLoop {
   /// simulator when it need not ask; between two calls of poll() it does not change.
   std::int64_t next_due_ns() const;
 
+  /// Whether a frame waits that the bus did not take: only then poll() is of use when one has been
+  /// sent.
+  bool waits_for_room() const { return some_exit_unsent_ || !outbox_.empty(); }
+
   /// Ends the operation from this side, as the order to stop would: a leg is let down, then off.
   void request_stop() { controller_.order_stop(); }
   /// Torque off at once, as the e-stop frame would.
@@ -61,6 +65,9 @@ class ControlLoop {
   control::FaultBits faults() const { return controller_.faults(); }
 
  private:
+  // Functions that are not to be merged into others are stages of the tick, whose cost is told
+  // (tests/tools/emulator/tick_cost.cpp).
+
   void examine_start();
   void watch_buses();
   void watch_sync(std::int64_t now_ns);
@@ -70,16 +77,17 @@ class ControlLoop {
   void answer_services(std::int64_t now_ns);
   void adopt_parameters();
   void run_due_tick(std::int64_t now_ns);
-  void tick(std::int64_t now_ns, std::uint32_t elapsed_ticks);
+  [[gnu::noinline]] void tick(std::int64_t now_ns, std::uint32_t elapsed_ticks);
   void adopt_toe_zero();
-  void write(const control::PerJoint<control::JointWish>& joints);
+  [[gnu::noinline]] void write(const control::PerJoint<control::JointWish>& joints);
   void send_exit_again();
+  void note_exit_unsent();
   void keep_fault_log(std::int64_t now_ns);
-  void trace();
-  void record(std::int64_t now_ns);
+  [[gnu::noinline]] void trace();
+  [[gnu::noinline]] void record(std::int64_t now_ns);
   protocol::Heartbeat next_heartbeat() const;
-  std::int64_t heartbeat_due_ns(const protocol::Heartbeat& next) const;
-  void send_heartbeat_if_due(std::int64_t now_ns);
+  std::int64_t heartbeat_due_ns() const;
+  [[gnu::noinline]] void send_heartbeat_if_due(std::int64_t now_ns);
   void queue(const hal::CanFrame& frame);
   void trip(control::FaultBits faults);
 
@@ -106,6 +114,7 @@ class ControlLoop {
   std::int64_t last_sync_ns_ = 0;
   std::int64_t last_tick_ns_ = 0;
   control::PerJoint<bool> exit_unsent_{};  // an e-stop's exit frame that the bus did not take
+  bool some_exit_unsent_ = false;
   control::Mode mode_before_ = control::Mode::kOff;  // at the begin of this poll
   control::FaultBits logged_faults_ = 0;
   std::int64_t log_step_ns_ = 0;

@@ -16,8 +16,7 @@ Inbox::Inbox(Counters& counters) : counters_(counters) {
 }
 
 void Inbox::drain(hal::CanBus& bus, int bus_index, std::int64_t now_ns) {
-  hal::CanFrame frame;
-  while (bus.receive(frame)) take(frame, bus_index, now_ns);
+  while (bus.receive(frame_)) take(frame_, bus_index, now_ns);
 }
 
 void Inbox::take(const hal::CanFrame& frame, int bus_index, std::int64_t now_ns) {

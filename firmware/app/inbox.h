@@ -22,7 +22,7 @@ class Inbox {
   explicit Inbox(Counters& counters);
 
   /// Takes every waiting frame. Replies are dated `now_ns`: the time of taking, on the local clock.
-  void drain(hal::CanBus& bus, int bus_index, std::int64_t now_ns);
+  [[gnu::noinline]] void drain(hal::CanBus& bus, int bus_index, std::int64_t now_ns);
 
   /// Latest state of each joint, in joint angles.
   const control::PerJoint<control::JointState>& joints() const { return joints_; }
@@ -31,6 +31,10 @@ class Inbox {
   bool take_emergency_stop();
   /// The newest tick number that is not older than the last one handed out.
   std::optional<std::uint32_t> take_sync();
+  /// Whether any of the next four has something.
+  bool asked() const {
+    return !orders_.empty() || !connects_.empty() || !requests_.empty() || !writes_.empty();
+  }
   std::optional<ReceivedOrder> take_order() { return orders_.take(); }
   std::optional<protocol::SupervisorConnect> take_connect() { return connects_.take(); }
   std::optional<protocol::ServiceRequest> take_request() { return requests_.take(); }
@@ -59,6 +63,7 @@ class Inbox {
   bool count(protocol::DecodeResult result);
 
   Counters& counters_;
+  hal::CanFrame frame_;  // the one being taken
   control::PerJoint<control::JointState> joints_{};
   control::PerJoint<float> zero_rad_{};
   bool emergency_stop_ = false;

@@ -26,7 +26,8 @@ FootController::FootController(const Settings& settings, JointPresence presence,
     : settings_(settings),
       presence_(presence),
       period_s_(period_s),
-      parts_(std::in_place, settings, period_s) {}
+      parts_(std::in_place, settings, period_s),
+      posture_(parts_->leg.kinematics().posture({})) {}
 
 bool FootController::configure(const Settings& settings, JointPresence presence) {
   if (mode_ != Mode::kOff) return false;
@@ -35,6 +36,7 @@ bool FootController::configure(const Settings& settings, JointPresence presence)
   settings_ = settings;
   presence_ = presence;
   parts_.emplace(settings_, period_s_);
+  posture_ = parts_->leg.kinematics().posture(posture_.q);
   wish_all(DriveAction::kExit);
   return true;
 }
@@ -131,6 +133,7 @@ void FootController::enter(Mode mode) {
 
 const Wish& FootController::step(const States& joints) {
   new_toe_zero_rad_.reset();
+  parts_->leg.kinematics().update(posture_, positions(joints));
   if (presence_.toe && settings_.homing.is_absolute() && settings_.homing.is_calibrated()) {
     homed_ = homed_ || joints[index(Joint::kToe)].received;
   }
@@ -265,7 +268,7 @@ void FootController::feel_ground(const States& joints) {
   const JointState& hip = joints[index(Joint::kHip)];
   const JointState& knee = joints[index(Joint::kKnee)];
   const float half_fall_Nm_s_rad = 0.5f * period_s_ * settings_.leg.kp_Nm_rad;
-  parts_->contact.update(positions(joints), {hip.velocity_rad_s, knee.velocity_rad_s},
+  parts_->contact.update(posture_, {hip.velocity_rad_s, knee.velocity_rad_s},
                          parts_->leg.acceleration_rad_s2(),
                          {hip.torque_Nm + half_fall_Nm_s_rad * hip.velocity_rad_s,
                           knee.torque_Nm + half_fall_Nm_s_rad * knee.velocity_rad_s},
@@ -277,6 +280,7 @@ void FootController::adapt_toe() {
   AdaptiveOpening& adaptive = parts_->adaptive;
   ToeOpening& toe = parts_->toe;
   if (!presence_.toe || !presence_.leg || !run_ordered_) return;
+  if (!settings_.adaptive.is_enabled()) return;  // then it neither moves nor has moved
   const GroundEstimate& ground = parts_->contact.estimate();
   if (ground.contact && adaptive.moved()) toe.halt();
   const StancePath& path = parts_->leg.path();

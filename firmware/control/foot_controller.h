@@ -54,7 +54,7 @@ class FootController {
 
   // ---- the tick ------------------------------------------------------------------------------
 
-  const Wish& step(const PerJoint<JointState>& joints);
+  [[gnu::noinline]] const Wish& step(const PerJoint<JointState>& joints);
 
   /// Set in the tick in which homing found the toe's zero: the shift of all later toe angles.
   std::optional<float> new_toe_zero_rad() const { return new_toe_zero_rad_; }
@@ -65,6 +65,8 @@ class FootController {
   bool homed() const { return homed_ || !presence_.toe; }
   const ToeOpening& toe() const { return parts_->toe; }
   const LegMotion& leg() const { return parts_->leg; }
+  /// Of the leg, as measured in the last step().
+  const LegPosture& posture() const { return posture_; }
   const GroundEstimate& ground() const { return parts_->contact.estimate(); }
   const Wish& wish() const { return wish_; }
   const JointPresence& presence() const { return presence_; }
@@ -107,6 +109,7 @@ class FootController {
   JointPresence presence_;
   float period_s_;
   std::optional<Parts> parts_;  // always there; optional, for it can be made anew without a heap
+  LegPosture posture_;
 
   Mode mode_ = Mode::kOff;
   float mode_s_ = 0.0f;  // time in this mode

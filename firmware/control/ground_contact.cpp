@@ -12,34 +12,33 @@ void GroundContact::reset() {
   feigned_N_ = 0.0f;
 }
 
-const GroundEstimate& GroundContact::update(LegAngles q, LegAngles velocity_rad_s,
+const GroundEstimate& GroundContact::update(const LegPosture& p, LegAngles velocity_rad_s,
                                             LegAngles acceleration_rad_s2, LegAngles torque_Nm,
                                             float dt_s) {
   estimate_.valid = true;
-  const PlaneVector foot_m = kinematics_.foot_m(q);
-  feel_force(q, velocity_rad_s, acceleration_rad_s2, torque_Nm, dt_s);
-  detect(foot_m, dt_s);
-  measure_way(foot_m);
-  measure_slip(-kinematics_.foot_velocity_m_s(q, velocity_rad_s).x, dt_s);
+  feel_force(p, velocity_rad_s, acceleration_rad_s2, torque_Nm, dt_s);
+  detect(p.foot_m, dt_s);
+  measure_way(p.foot_m);
+  measure_slip(-kinematics_.foot_velocity_m_s(p, velocity_rad_s).x, dt_s);
   return estimate_;
 }
 
-void GroundContact::feel_force(LegAngles q, LegAngles velocity_rad_s, LegAngles acceleration_rad_s2,
-                               LegAngles torque_Nm, float dt_s) {
-  const LegAngles model = dynamics_.torque_Nm(q, velocity_rad_s, acceleration_rad_s2);
+void GroundContact::feel_force(const LegPosture& p, LegAngles velocity_rad_s,
+                               LegAngles acceleration_rad_s2, LegAngles torque_Nm, float dt_s) {
+  const LegAngles model = dynamics_.torque_Nm(p.sines, velocity_rad_s, acceleration_rad_s2);
   const PlaneVector force = kinematics_.foot_force_N(
-      q, {model.hip_rad - torque_Nm.hip_rad, model.knee_rad - torque_Nm.knee_rad});
+      p, {model.hip_rad - torque_Nm.hip_rad, model.knee_rad - torque_Nm.knee_rad});
   const float share = dt_s / (settings_.filter_s + dt_s);  // first-order low pass
   estimate_.force_N.x += share * (force.x - estimate_.force_N.x);
   estimate_.force_N.z += share * (force.z - estimate_.force_N.z);
-  feigned_N_ += share * (friction_force_N(q, velocity_rad_s) - feigned_N_);
+  feigned_N_ += share * (friction_force_N(p, velocity_rad_s) - feigned_N_);
 }
 
 /// Vertical force of the worst signs of the friction that the model may have wrong.
-float GroundContact::friction_force_N(LegAngles q, LegAngles velocity_rad_s) const {
+float GroundContact::friction_force_N(const LegPosture& p, LegAngles velocity_rad_s) const {
   const LegAngles doubt = dynamics_.friction_doubt_Nm(velocity_rad_s);
-  return absolute(kinematics_.foot_force_N(q, {doubt.hip_rad, 0.0f}).z) +
-         absolute(kinematics_.foot_force_N(q, {0.0f, doubt.knee_rad}).z);
+  return absolute(kinematics_.foot_force_N(p, {doubt.hip_rad, 0.0f}).z) +
+         absolute(kinematics_.foot_force_N(p, {0.0f, doubt.knee_rad}).z);
 }
 
 void GroundContact::detect(PlaneVector foot_m, float dt_s) {

@@ -37,16 +37,20 @@ class GroundContact {
   void reset();
 
   /// @param acceleration_rad_s2 commanded one: measured speed is too coarse to differentiate
+  const GroundEstimate& update(const LegPosture& p, LegAngles velocity_rad_s,
+                               LegAngles acceleration_rad_s2, LegAngles torque_Nm, float dt_s);
   const GroundEstimate& update(LegAngles q, LegAngles velocity_rad_s, LegAngles acceleration_rad_s2,
-                               LegAngles torque_Nm, float dt_s);
+                               LegAngles torque_Nm, float dt_s) {
+    return update(kinematics_.posture(q), velocity_rad_s, acceleration_rad_s2, torque_Nm, dt_s);
+  }
 
   const GroundEstimate& estimate() const { return estimate_; }
 
  private:
-  void feel_force(LegAngles q, LegAngles velocity_rad_s, LegAngles acceleration_rad_s2,
+  void feel_force(const LegPosture& p, LegAngles velocity_rad_s, LegAngles acceleration_rad_s2,
                   LegAngles torque_Nm, float dt_s);
   void detect(PlaneVector foot_m, float dt_s);
-  float friction_force_N(LegAngles q, LegAngles velocity_rad_s) const;
+  float friction_force_N(const LegPosture& p, LegAngles velocity_rad_s) const;
   void measure_way(PlaneVector foot_m);
   void measure_slip(float backward_m_s, float dt_s);
 

@@ -20,10 +20,8 @@ LegDynamics::LegDynamics(const LegModelSettings& m)
 //   Q_h = A h'' + C cos(k) s'' - C sin(k) s'^2 + g m_h sin h
 //   Q_s = B s'' + C cos(k) h'' + C sin(k) h'^2 + g m_s sin s
 // The hip torque turns both links (Q_h + Q_s), the knee torque only the shank (Q_s).
-LegAngles LegDynamics::torque_Nm(LegAngles q, LegAngles v, LegAngles a) const {
-  const SinCos h = sin_cos(q.hip_rad);
-  const SinCos s = sin_cos(q.hip_rad + q.knee_rad);
-  const SinCos k = sin_cos(q.knee_rad);
+LegAngles LegDynamics::torque_Nm(const LegSines& q, LegAngles v, LegAngles a) const {
+  const auto& [h, s, k] = q;
   const float s_dot = v.hip_rad + v.knee_rad;
   const float s_ddot = a.hip_rad + a.knee_rad;
   const float q_h = a_ * a.hip_rad + c_ * k.cos * s_ddot - c_ * k.sin * square(s_dot) +

@@ -13,7 +13,11 @@ class LegDynamics {
 
   /// Drive torques for the given motion: gravity, link inertia, reflected rotor inertia, friction.
   /// Source: Lagrange's equations in (h, s), see the .cpp file. The fields are Nm.
-  LegAngles torque_Nm(LegAngles q, LegAngles velocity_rad_s, LegAngles acceleration_rad_s2) const;
+  LegAngles torque_Nm(const LegSines& q, LegAngles velocity_rad_s,
+                      LegAngles acceleration_rad_s2) const;
+  LegAngles torque_Nm(LegAngles q, LegAngles velocity_rad_s, LegAngles acceleration_rad_s2) const {
+    return torque_Nm(LegSines(q), velocity_rad_s, acceleration_rad_s2);
+  }
 
   /// By how much each drive's friction may differ from that model. The fields are Nm.
   LegAngles friction_doubt_Nm(LegAngles velocity_rad_s) const;

@@ -10,7 +10,8 @@ LegMotion::LegMotion(const Settings& settings, float period_s)
       path_(settings.path),
       level_shank_rad_(
           LegKinematics::shank_angle_rad(kinematics_.angles(path_.deepest_m()).angles)),
-      generator_(period_s) {
+      generator_(period_s),
+      set_point_(kinematics_.posture(position_)) {
   for (int joint = 0; joint < 2; ++joint) {
     input_.set_limits(joint, settings_.speed_rad_s, settings_.acceleration_rad_s2,
                       settings_.jerk_rad_s3);
@@ -24,6 +25,7 @@ void LegMotion::start(LegAngles measured) {
   position_ = measured;
   velocity_ = {};
   acceleration_ = {};
+  kinematics_.update(set_point_, position_);
   path_.reset();
 }
 
@@ -39,7 +41,8 @@ void LegMotion::go_to_path() {
 LegCommand LegMotion::step() {
   if (stage_ == Stage::kMove) advance_move();
   if (stage_ == Stage::kPath) advance_path();
-  const LegAngles torque = dynamics_.torque_Nm(position_, velocity_, acceleration_);
+  kinematics_.update(set_point_, position_);
+  const LegAngles torque = dynamics_.torque_Nm(set_point_.sines, velocity_, acceleration_);
   return {command(position_.hip_rad, velocity_.hip_rad, torque.hip_rad),
           command(position_.knee_rad, velocity_.knee_rad, torque.knee_rad)};
 }
@@ -61,9 +64,10 @@ void LegMotion::advance_path() {
   const LegInverse inverse = kinematics_.angles(point.position_m);
   reachable_ = reachable_ && inverse.reachable;
   position_ = inverse.angles;
-  velocity_ = kinematics_.joint_velocity_rad_s(position_, point.velocity_m_s);
+  kinematics_.update(set_point_, position_);
+  velocity_ = kinematics_.joint_velocity_rad_s(set_point_, point.velocity_m_s);
   acceleration_ =
-      kinematics_.joint_acceleration_rad_s2(position_, velocity_, point.acceleration_m_s2);
+      kinematics_.joint_acceleration_rad_s2(set_point_, velocity_, point.acceleration_m_s2);
 }
 
 JointCommand LegMotion::command(float position, float velocity, float torque) const {

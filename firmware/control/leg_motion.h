@@ -43,6 +43,8 @@ class LegMotion {
 
   LegAngles acceleration_rad_s2() const { return acceleration_; }  // commanded
   LegAngles set_point_rad() const { return position_; }
+  /// Of the last step().
+  const LegPosture& set_point() const { return set_point_; }
   const StancePath& path() const { return path_; }
   const LegKinematics& kinematics() const { return kinematics_; }
   const LegDynamics& dynamics() const { return dynamics_; }
@@ -67,6 +69,7 @@ class LegMotion {
   Stage stage_ = Stage::kHold;
   bool reachable_ = true;
   LegAngles position_;
+  LegPosture set_point_;
   LegAngles velocity_;
   LegAngles acceleration_;
 };

@@ -1,46 +1,39 @@
 #include "firmware/protocol/codec.h"
 
-#include <algorithm>
-#include <bit>
+#include <array>
 
 namespace hoof::firmware::protocol {
 namespace {
 
 using Frame = hal::CanFrame;
 
-static_assert(std::endian::native == std::endian::little, "the bytes are swapped as a whole");
+using detail::load;
+using detail::store;
 
-/// The 8 classic data bytes as one number, byte 0 most significant. Two instructions a word on the
-/// board; byte by byte it was a quarter of the cost of a control tick.
-std::uint64_t load(const Frame& frame) {
-  std::uint64_t word = 0;
-  __builtin_memcpy(&word, frame.data.data(),
-                   sizeof word);  // freestanding: std::memcpy would be a call
-  return __builtin_bswap64(word);
-}
-
-void store(Frame& frame, std::uint64_t word) {
-  word = __builtin_bswap64(word);
-  __builtin_memcpy(frame.data.data(), &word, sizeof word);
-}
-
-unsigned shift_of(const Signal& signal) {
-  return 64u - signal.first_bit - signal.length;
-}
-
-std::uint8_t crc8_byte(std::uint8_t crc, std::uint8_t byte) {
+/// What the polynomial makes of four bits: the remainder of each, shifted out at the top.
+constexpr std::array<std::uint8_t, 16> crc8_table() {
   constexpr unsigned kPolynomial = 0x2F;
-  unsigned value = crc ^ byte;
-  for (int bit = 0; bit < 8; ++bit) {
-    value = (value & 0x80u) != 0 ? value << 1 ^ kPolynomial : value << 1;
+  std::array<std::uint8_t, 16> table{};
+  for (unsigned nibble = 0; nibble < table.size(); ++nibble) {
+    unsigned value = nibble << 4;
+    for (int bit = 0; bit < 4; ++bit) {
+      value = (value & 0x80u) != 0 ? value << 1 ^ kPolynomial : value << 1;
+    }
+    table[nibble] = static_cast<std::uint8_t>(value);
   }
-  return static_cast<std::uint8_t>(value);
+  return table;
+}
+/// Sixteen bytes, one line of the board's flash.
+alignas(16) constexpr std::array<std::uint8_t, 16> kCrc8 = crc8_table();
+
+unsigned crc8_byte(unsigned crc, std::uint8_t byte) {
+  crc ^= byte;
+  crc = (crc << 4 & 0xFFu) ^ kCrc8[crc >> 4];
+  return (crc << 4 & 0xFFu) ^ kCrc8[crc >> 4];
 }
 
 bool is_switch(const Frame& frame) {
-  for (std::size_t i = 0; i < 7; ++i) {
-    if (frame.data[i] != 0xFF) return false;
-  }
+  if (load(frame) >> 8 != ~std::uint64_t{0} >> 8) return false;
   return frame.data[7] >= static_cast<std::uint8_t>(DriveSwitch::kEnter) &&
          frame.data[7] <= static_cast<std::uint8_t>(DriveSwitch::kSetZero);
 }
@@ -48,21 +41,24 @@ bool is_switch(const Frame& frame) {
 }  // namespace
 
 std::uint32_t raw_of(const Frame& frame, const Signal& signal) {
-  return static_cast<std::uint32_t>(load(frame) >> shift_of(signal)) & signal.largest_raw();
+  return static_cast<std::uint32_t>(load(frame) >> detail::place_of(signal).shift) &
+         signal.largest_raw();
 }
 
 void set_raw(Frame& frame, const Signal& signal, std::uint32_t raw) {
-  const std::uint64_t mask = static_cast<std::uint64_t>(signal.largest_raw()) << shift_of(signal);
-  const std::uint64_t bits = static_cast<std::uint64_t>(raw) << shift_of(signal) & mask;
+  const unsigned shift = detail::place_of(signal).shift;
+  const std::uint64_t mask = static_cast<std::uint64_t>(signal.largest_raw()) << shift;
+  const std::uint64_t bits = static_cast<std::uint64_t>(raw) << shift & mask;
   store(frame, (load(frame) & ~mask) | bits);
 }
 
 std::uint32_t raw_from_value(const Signal& signal, float value) {
   if (!(value == value)) value = 0.0f;
-  value = std::clamp(value, signal.minimum, signal.maximum);
+  value = value < signal.minimum ? signal.minimum : value;
+  value = value > signal.maximum ? signal.maximum : value;
   const float code = (value - signal.offset) / signal.scale + 0.5f;
-  const float largest = static_cast<float>(signal.largest_raw());
-  return code >= largest ? signal.largest_raw() : static_cast<std::uint32_t>(code);
+  const std::uint32_t largest = signal.largest_raw();
+  return code >= static_cast<float>(largest) ? largest : static_cast<std::uint32_t>(code);
 }
 
 float value_from_raw(const Signal& signal, std::uint32_t raw) {
@@ -70,11 +66,11 @@ float value_from_raw(const Signal& signal, std::uint32_t raw) {
 }
 
 std::uint8_t crc8(const Frame& frame) {
-  std::uint8_t crc = 0xFF;
+  unsigned crc = 0xFF;
   crc = crc8_byte(crc, static_cast<std::uint8_t>(frame.id));
   crc = crc8_byte(crc, static_cast<std::uint8_t>(frame.id >> 8));
   for (std::size_t i = 0; i + 1 < frame.length; ++i) crc = crc8_byte(crc, frame.data[i]);
-  return crc ^ 0xFF;
+  return static_cast<std::uint8_t>(crc ^ 0xFF);
 }
 
 DecodeResult check(const MessageSpec& spec, const Frame& frame) {
@@ -89,8 +85,7 @@ Frame encode_switch(Drive drive, DriveSwitch action) {
   Frame frame;
   frame.id = command_spec(drive).id;
   frame.length = command_spec(drive).length;
-  std::fill_n(frame.data.begin(), 7, std::uint8_t{0xFF});
-  frame.data[7] = static_cast<std::uint8_t>(action);
+  store(frame, ~std::uint64_t{0xFF} | static_cast<std::uint8_t>(action));
   return frame;
 }
 

@@ -50,12 +50,13 @@ class TorqueGate {
   /// mode is off, emergency off or fault; their heat is reckoned in every mode.
   /// @param ticks SYNC numbers since the last call, 1 unless some were missed
   /// @return faults found now (also latched)
-  control::FaultBits inspect(const control::PerJoint<control::JointState>& joints,
-                             control::Mode mode, std::int64_t now_ns, std::uint32_t ticks);
+  [[gnu::noinline]] control::FaultBits inspect(const control::PerJoint<control::JointState>& joints,
+                                               control::Mode mode, std::int64_t now_ns,
+                                               std::uint32_t ticks);
 
   /// Judges one wish, once per tick.
-  const Verdict& check(const control::Wish& wish,
-                       const control::PerJoint<control::JointState>& joints);
+  [[gnu::noinline]] const Verdict& check(const control::Wish& wish,
+                                         const control::PerJoint<control::JointState>& joints);
 
   /// Latches for a fault found elsewhere (SYNC lost, for one).
   void latch() { latched_ = true; }

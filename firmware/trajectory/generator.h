@@ -161,7 +161,7 @@ class Generator {
   }
 
   // One unit of planning.
-  void work() {
+  [[gnu::noinline]] void work() {
     const int joint = planner_.joint_to_prepare();
     if (joint >= 0) {
       if (making_ == Making::kGoal && !validated(joint)) {

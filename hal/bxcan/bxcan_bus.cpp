@@ -1,5 +1,7 @@
 #include "hal/bxcan/bxcan_bus.h"
 
+#include <bit>
+
 #include "hal/can_frame_check.h"
 #include "hal/interrupt_lock.h"
 
@@ -27,33 +29,31 @@ constexpr std::uint32_t identifier_word(const CanFrame& frame) {
   return (frame.id << identifier::kExtendedShift) | identifier::kExtended | remote;
 }
 
-constexpr std::uint32_t four_bytes(const CanFrame& frame, std::size_t first) {
-  return static_cast<std::uint32_t>(frame.data[first]) |
-         static_cast<std::uint32_t>(frame.data[first + 1]) << 8 |
-         static_cast<std::uint32_t>(frame.data[first + 2]) << 16 |
-         static_cast<std::uint32_t>(frame.data[first + 3]) << 24;
+// The peripheral's data registers hold byte 0 of four in their lowest bits, as memory does.
+static_assert(std::endian::native == std::endian::little);
+
+std::uint32_t four_bytes(const CanFrame& frame, std::size_t first) {
+  std::uint32_t word = 0;
+  __builtin_memcpy(&word, frame.data.data() + first, sizeof word);
+  return word;
 }
 
 void unpack(std::uint32_t word, CanFrame& frame, std::size_t first) {
-  for (std::size_t i = 0; i < 4; ++i) {
-    frame.data[first + i] = static_cast<std::uint8_t>(word >> (8 * i));
-  }
+  __builtin_memcpy(frame.data.data() + first, &word, sizeof word);
 }
 
-CanFrame frame_of(const ReceivedFrame& received) {
-  CanFrame frame;
+/// All of it but the data beyond 8 bytes.
+void write_frame(const ReceivedFrame& received, CanFrame& frame) {
   frame.extended = (received.identifier & identifier::kExtended) != 0;
   frame.remote = (received.identifier & identifier::kRemote) != 0;
   frame.id = received.identifier >>
              (frame.extended ? identifier::kExtendedShift : identifier::kStandardShift);
   const std::uint32_t code = received.length & 0xF;  // 9 to 15 also stand for 8 bytes
   frame.length = static_cast<std::uint8_t>(code > 8 ? 8 : code);
-  if (!frame.remote) {
-    unpack(received.low, frame, 0);
-    unpack(received.high, frame, 4);
-  }
+  frame.error = frame.fd = frame.bit_rate_switch = frame.error_state_indicator = false;
+  unpack(frame.remote ? 0 : received.low, frame, 0);
+  unpack(frame.remote ? 0 : received.high, frame, 4);
   frame.stamp_ns = received.stamp_ns;
-  return frame;
 }
 
 }  // namespace
@@ -111,7 +111,7 @@ SendResult BxCanBus::send(const CanFrame& frame) {
   if (!can_exist(frame) || frame.fd) return SendResult::kInvalid;
   if (state_ == State::kDown) return SendResult::kDown;
   if (state_ != State::kOn || registers_.ESR.has(esr::kBusOff)) {
-    return status().bus_off ? SendResult::kBusOff : SendResult::kDown;
+    return bus_off() ? SendResult::kBusOff : SendResult::kDown;
   }
   const std::uint32_t identifier = identifier_word(frame);
   const std::size_t chosen = choose_mailbox(identifier);
@@ -152,19 +152,25 @@ std::size_t BxCanBus::choose_mailbox(std::uint32_t identifier) const {
 }
 
 bool BxCanBus::receive(CanFrame& frame) {
-  ReceivedFrame received;
-  if (!queue_.take(received)) return false;
+  const ReceivedFrame* received = queue_.oldest();
+  if (received == nullptr) return false;
+  write_frame(*received, frame);
+  queue_.drop();
   ++received_;
-  frame = frame_of(received);
   return true;
+}
+
+bool BxCanBus::bus_off() const {
+  if (state_ == State::kDown) return false;
+  return state_ == State::kBackOff || state_ == State::kResetting ||
+         registers_.ESR.has(esr::kBusOff);
 }
 
 BusStatus BxCanBus::status() const {
   BusStatus status;
   if (state_ != State::kDown) {
     const std::uint32_t errors = registers_.ESR.read();
-    status.bus_off =
-        (errors & esr::kBusOff) != 0 || state_ == State::kBackOff || state_ == State::kResetting;
+    status.bus_off = bus_off();
     status.error_passive = (errors & esr::kErrorPassive) != 0;
     status.transmit_error_count = esr::transmit_errors(errors);
     status.receive_error_count = esr::receive_errors(errors);

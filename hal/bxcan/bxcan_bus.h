@@ -55,6 +55,7 @@ class BxCanBus final : public CanBus {
   void withdraw(std::uint32_t id) override;
   bool receive(CanFrame& frame) override;
   BusStatus status() const override;
+  bool bus_off() const override;
   bool frame_waiting() const { return !queue_.empty(); }
 
   // The peripheral's interrupts, of one priority: none of them interrupts another.

@@ -27,6 +27,7 @@ class FallbackBus final : public CanBus {
     if (!by_serial()) can_.withdraw(id);
   }
   BusStatus status() const override { return by_serial() ? serial_.status() : can_.status(); }
+  bool bus_off() const override { return by_serial() ? serial_.bus_off() : can_.bus_off(); }
 
   bool receive(CanFrame& frame) override {
     if (can_.receive(frame)) {

@@ -48,6 +48,7 @@ class SlcanBus final : public CanBus {
   SendResult send(const CanFrame& frame) override;
   bool receive(CanFrame& frame) override;
   BusStatus status() const override;
+  bool bus_off() const override { return false; }
 
  private:
   void take_line(std::int64_t now_ns);

@@ -28,42 +28,76 @@ void enable_interrupts(NvicRegisters& nvic, ScbRegisters& scb) {
   asm volatile("cpsie i" ::: "memory");
 }
 
+namespace {
+
+void take_frames(hal::bxcan::BxCanBus System::*bus, std::size_t fifo) {
+  System& all = system();
+  (all.*bus).on_receive_interrupt(fifo, all.clock.now_ns());
+  all.work = true;
+}
+
+void note_sent(hal::bxcan::BxCanBus System::*bus) {
+  System& all = system();
+  (all.*bus).on_transmit_interrupt();
+  all.room = true;
+}
+
+void note_status(hal::bxcan::BxCanBus System::*bus) {
+  System& all = system();
+  (all.*bus).on_status_interrupt();
+  all.work = true;
+  all.watch = true;
+}
+
+void serve(SerialLine System::*line, SerialBus System::*bus) {
+  System& all = system();
+  (all.*line).on_interrupt(all.*bus, all.clock.now_ns());
+  all.work = true;
+}
+
+}  // namespace
+
 extern "C" {
 void hoof_tick() {
-  system().clock.on_tick();
+  System& all = system();
+  all.clock.on_tick();
+  all.work = true;
+  all.watch = true;
 }
 void hoof_can1_transmit() {
-  system().can0.on_transmit_interrupt();
+  note_sent(&System::can0);
 }
 void hoof_can1_receive0() {
-  system().can0.on_receive_interrupt(0, system().clock.now_ns());
+  take_frames(&System::can0, 0);
 }
 void hoof_can1_receive1() {
-  system().can0.on_receive_interrupt(1, system().clock.now_ns());
+  take_frames(&System::can0, 1);
 }
 void hoof_can1_status() {
-  system().can0.on_status_interrupt();
+  note_status(&System::can0);
 }
 void hoof_timer1_break() {
-  system().enable.on_break_interrupt();
+  System& all = system();
+  all.enable.on_break_interrupt();
+  all.work = true;
 }
 void hoof_can2_transmit() {
-  system().can1.on_transmit_interrupt();
+  note_sent(&System::can1);
 }
 void hoof_can2_receive0() {
-  system().can1.on_receive_interrupt(0, system().clock.now_ns());
+  take_frames(&System::can1, 0);
 }
 void hoof_can2_receive1() {
-  system().can1.on_receive_interrupt(1, system().clock.now_ns());
+  take_frames(&System::can1, 1);
 }
 void hoof_can2_status() {
-  system().can1.on_status_interrupt();
+  note_status(&System::can1);
 }
 void hoof_usart1() {
-  system().line0.on_interrupt(system().serial0, system().clock.now_ns());
+  serve(&System::line0, &System::serial0);
 }
 void hoof_usart2() {
-  system().line1.on_interrupt(system().serial1, system().clock.now_ns());
+  serve(&System::line1, &System::serial1);
 }
 }
 

@@ -57,6 +57,6 @@ int main() {
   system.watchdog.set(stm32f405::Watchdog::Time::kTick);
   for (;;) {
     loop.poll();  // feeds the watchdog once it has finished
-    system.rest();
+    system.rest(loop.waits_for_room());
   }
 }

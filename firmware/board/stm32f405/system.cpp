@@ -61,18 +61,26 @@ void System::start() {
   enable_interrupts(nvic_registers(), scb_registers());
 }
 
-void System::rest() {
+void System::rest(bool for_room) {
   const std::int64_t now_ns = clock.now_ns();
-  can0.maintain(now_ns);
-  can1.maintain(now_ns);
-  meter.maintain(now_ns);
   board.note_time(now_ns);
-  // With interrupts masked: one that came between looking and sleeping would else be slept over.
-  // WFI wakes up all the same.
-  const hal::InterruptLock lock;
-  const bool waiting = can0.frame_waiting() || can1.frame_waiting() || serial0.frame_waiting() ||
-                       serial1.frame_waiting();
-  if (!waiting) asm volatile("dsb\n\twfi" ::: "memory");
+  if (watch) {
+    watch = false;
+    can0.maintain(now_ns);
+    can1.maintain(now_ns);
+    meter.maintain(now_ns);
+  }
+  for (;;) {
+    // With interrupts masked: one that came between looking and sleeping would else be slept over.
+    // WFI wakes up all the same, and the interrupt runs at the end of the turn.
+    const hal::InterruptLock lock;
+    if (work || (for_room && room)) {
+      work = false;
+      room = false;
+      return;
+    }
+    asm volatile("dsb\n\twfi" ::: "memory");
+  }
 }
 
 bool System::only_core_and_lines() const {

@@ -41,11 +41,17 @@ struct System {
   bool only_core_and_lines() const;
 
   /// Once per turn of the main loop: buses joining and recovering, the next measurement, then sleep
-  /// until an interrupt.
-  /// Does not sleep while a frame waits.
-  void rest();
+  /// until there is work: a frame has come, a millisecond has passed, a bus or the e-stop has changed
+  /// its state.
+  /// @param for_room work is also that a frame was sent: another waits for its place
+  void rest(bool for_room);
   /// The same where nothing but the lines can bring anything.
   void rest_by_lines();
+
+  /// What the interrupts tell the main loop.
+  volatile bool work = true;   // there is some, since rest() returned
+  volatile bool room = false;  // a frame was sent, since rest() returned
+  volatile bool watch = true;  // buses and measurement are to be looked after
 };
 
 System& system();

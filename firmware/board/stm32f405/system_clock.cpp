@@ -3,7 +3,7 @@
 namespace hoof::firmware::stm32f405 {
 namespace {
 
-constexpr std::int64_t kMillisecond_ns = 1'000'000;
+constexpr std::uint32_t kMillisecond_ns = 1'000'000;
 
 }  // namespace
 
@@ -26,8 +26,11 @@ std::int64_t SystemClock::now_ns() const {
   const std::uint32_t left = pending ? after : before;
   // The tick is raised on reaching zero: zero is the first cycle of a millisecond, not the last.
   const std::uint32_t cycles = left == 0 ? 0 : reload_ + 1 - left;
-  const std::uint64_t whole_ms = (std::uint64_t{high} << 32 | low) + (pending ? 1 : 0);
-  return static_cast<std::int64_t>(whole_ms) * kMillisecond_ns + cycles * 1'000 / cycles_per_us_;
+  const std::uint32_t part_ns = cycles * 1'000 / cycles_per_us_ + (pending ? kMillisecond_ns : 0);
+  // One long multiplication; of the upper word only what stays below 2^64.
+  const std::uint64_t whole_ns =
+      std::uint64_t{low} * kMillisecond_ns + (std::uint64_t{high * kMillisecond_ns} << 32);
+  return static_cast<std::int64_t>(whole_ns + part_ns);
 }
 
 }  // namespace hoof::firmware::stm32f405

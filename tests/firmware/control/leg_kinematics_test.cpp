@@ -1,7 +1,9 @@
 #include "firmware/control/leg_kinematics.h"
 
+#include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdint>
 #include <random>
 
 using namespace hoof::firmware::control;
@@ -97,6 +99,43 @@ TEST_CASE("The Jacobian is the derivative of the foot's place") {
     REQUIRE(j.x_k == Approx((xk1 - xk0) / (2 * e)).margin(1e-6));
     REQUIRE(j.z_k == Approx((zk1 - zk0) / (2 * e)).margin(1e-6));
   }
+}
+
+TEST_CASE("What a posture holds is what its angles alone give, bit for bit") {
+  INFO("seed 27");
+  std::mt19937 random = seeded(27);
+  std::uniform_real_distribution<float> value(-1.0f, 1.0f);
+  const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
+  LegPosture kept = kLeg.posture({});
+  for (int n = 0; n < 5000; ++n) {
+    LegAngles q = random_posture(random);
+    if (n % 50 == 0) q.knee_rad *= 0.01f;  // nearly stretched
+    CAPTURE(q.hip_rad, q.knee_rad);
+    kLeg.update(kept, q);
+    kLeg.update(kept, q);
+    // Each sine anew, as if the others were not known.
+    const SinCos h = sin_cos(q.hip_rad), s = sin_cos(q.hip_rad + q.knee_rad);
+    const float l1 = 0.3f, l2 = 0.3f;
+    REQUIRE(bits(kept.foot_m.x) == bits(l1 * h.sin + l2 * s.sin));
+    REQUIRE(bits(kept.foot_m.z) == bits(-l1 * h.cos - l2 * s.cos));
+    REQUIRE(bits(kept.jacobian.x_k) == bits(l2 * s.cos));
+    REQUIRE(bits(kept.jacobian.z_k) == bits(l2 * s.sin));
+    const LegAngles v{value(random), value(random)};
+    const LegJacobian& j = kept.jacobian;
+    const PlaneVector speed = kLeg.foot_velocity_m_s(kept, v);
+    REQUIRE(bits(speed.x) == bits(j.x_h * v.hip_rad + j.x_k * v.knee_rad));
+    REQUIRE(bits(speed.z) == bits(j.z_h * v.hip_rad + j.z_k * v.knee_rad));
+    const PlaneVector f = kLeg.foot_force_N(kept, v), again = kLeg.foot_force_N(q, v);
+    REQUIRE(bits(f.x) == bits(again.x));
+    REQUIRE(bits(f.z) == bits(again.z));
+  }
+}
+
+TEST_CASE("A posture whose angles differ in the sign of a zero alone is reckoned anew") {
+  LegPosture posture = kLeg.posture({0.0f, 0.0f});
+  kLeg.update(posture, {-0.0f, 0.0f});
+  CHECK(std::signbit(posture.q.hip_rad));
+  CHECK(std::signbit(posture.sines.h.sin));
 }
 
 TEST_CASE("Joint speeds give the wanted foot speed; forces and torques go both ways") {

@@ -9,15 +9,27 @@
 
 namespace hoof::test {
 
+/// Instructions a tick.
+struct MeanAndMost {
+  double mean = 0;
+  std::uint64_t most = 0;
+
+  void add(std::uint64_t instructions, std::size_t ticks) {
+    mean += double(instructions) / double(ticks);
+    most = std::max(most, instructions);
+  }
+};
+
 struct CostSummary {
   std::uint64_t ticks = 0;
   double mean_instructions = 0, mean_cycles = 0;
   std::uint64_t most_instructions = 0;
   std::uint64_t most_cycles = 0;  // of a tick that does not plan
   std::uint64_t planning_ticks = 0;
+  double mean_planning_instructions = 0, mean_planning_cycles = 0;
   std::uint64_t most_planning_cycles = 0;
-  std::array<double, kParts> part_mean{};
-  std::array<std::uint64_t, kParts> part_most{};
+  std::array<MeanAndMost, kParts> parts{};
+  std::array<MeanAndMost, kStages> stages{};
 };
 
 inline CostSummary summarise(const std::vector<TickCost>& ticks) {
@@ -29,11 +41,20 @@ inline CostSummary summarise(const std::vector<TickCost>& ticks) {
     s.most_instructions = std::max(s.most_instructions, tick.instructions);
     std::uint64_t& most = tick.plans ? s.most_planning_cycles : s.most_cycles;
     most = std::max(most, tick.cycles);
-    s.planning_ticks += tick.plans ? 1 : 0;
-    for (std::size_t p = 0; p < kParts; ++p) {
-      s.part_mean[p] += double(tick.part_instructions[p]) / double(ticks.size());
-      s.part_most[p] = std::max(s.part_most[p], tick.part_instructions[p]);
+    for (std::size_t i = 0; i < kParts; ++i) {
+      s.parts[i].add(tick.part_instructions[i], ticks.size());
     }
+    for (std::size_t i = 0; i < kStages; ++i) {
+      s.stages[i].add(tick.stage_instructions[i], ticks.size());
+    }
+    if (!tick.plans) continue;
+    ++s.planning_ticks;
+    s.mean_planning_instructions += double(tick.instructions);
+    s.mean_planning_cycles += double(tick.cycles);
+  }
+  if (s.planning_ticks > 0) {
+    s.mean_planning_instructions /= double(s.planning_ticks);
+    s.mean_planning_cycles /= double(s.planning_ticks);
   }
   return s;
 }

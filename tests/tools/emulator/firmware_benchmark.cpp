@@ -50,17 +50,24 @@ void print_cost(const char* kind, const hoof::test::CostSummary& c) {
       "{\"case\": \"%s\", \"cost_of\": %llu, \"mean_instructions\": %.0f, \"most_instructions\": "
       "%llu, "
       "\"most_cycles\": %llu, \"most_planning_cycles\": %llu, \"mean_us\": %.1f, "
-      "\"most_us\": %.1f, \"most_planning_us\": %.1f, \"planning_ticks\": %llu}\n",
+      "\"most_us\": %.1f, \"most_planning_us\": %.1f, \"planning_ticks\": %llu, "
+      "\"mean_planning_instructions\": %.0f, \"mean_planning_us\": %.1f}\n",
       kind, static_cast<unsigned long long>(c.ticks), c.mean_instructions,
       static_cast<unsigned long long>(c.most_instructions),
       static_cast<unsigned long long>(c.most_cycles),
       static_cast<unsigned long long>(c.most_planning_cycles), us(c.mean_cycles),
       us(double(c.most_cycles)), us(double(c.most_planning_cycles)),
-      static_cast<unsigned long long>(c.planning_ticks));
-  for (std::size_t p = 0; p < hoof::test::kParts; ++p) {
-    std::printf("  {\"part\": \"%s\", \"mean_instructions\": %.0f, \"most_instructions\": %llu}\n",
-                hoof::test::kPartNames[p], c.part_mean[p],
-                static_cast<unsigned long long>(c.part_most[p]));
+      static_cast<unsigned long long>(c.planning_ticks), c.mean_planning_instructions,
+      us(c.mean_planning_cycles));
+  const auto print = [](const char* what, const char* name, const hoof::test::MeanAndMost& m) {
+    std::printf("  {\"%s\": \"%s\", \"mean_instructions\": %.0f, \"most_instructions\": %llu}\n",
+                what, name, m.mean, static_cast<unsigned long long>(m.most));
+  };
+  for (std::size_t i = 0; i < hoof::test::kStages; ++i) {
+    print("stage", hoof::test::kStageNames[i], c.stages[i]);
+  }
+  for (std::size_t i = 0; i < hoof::test::kParts; ++i) {
+    print("part", hoof::test::kPartNames[i], c.parts[i]);
   }
 }
 

@@ -33,23 +33,23 @@ inline FirmwareOn host(const tools::RunSettings& run) {
   return [&run](bridge::Wires&) { return bridge::local_firmware(run.parameters); };
 }
 
-/// What a board's controller has received and its filters let through; it wakes the core for each
-/// such frame, and for each sent.
+/// What a board's controller has received and its filters let through.
 class WakingBus final : public hal::CanBus {
  public:
   WakingBus(hal::CanBus& inner, std::size_t bus) : inner_(inner) {
     firmware::app::for_each_received_id(bus, [this](std::uint32_t id) { ids_.insert(id); });
   }
 
-  /// @return true where something came or went since the last call
-  bool wakes() {
+  /// @param for_room also where something was sent
+  /// @return true where something came since the last call
+  bool wakes(bool for_room) {
     const std::size_t had = waiting_.size();
     hal::CanFrame frame;
     while (inner_.receive(frame)) {
       if (!frame.extended && ids_.count(frame.id) != 0) waiting_.push_back(frame);
     }
     const std::uint64_t sent = inner_.status().sent;
-    const bool wakes = waiting_.size() > had || sent != sent_;
+    const bool wakes = waiting_.size() > had || (for_room && sent != sent_);
     sent_ = sent;
     return wakes;
   }
@@ -71,8 +71,9 @@ class WakingBus final : public hal::CanBus {
   std::uint64_t sent_ = 0;
 };
 
-/// The loop in this process, polled when a board would wake: by its buses, and by SysTick every
-/// millisecond. Whoever polls more often notices sooner that something is missing.
+/// The loop in this process, polled when a board's would be: after what its buses brought, where a
+/// frame waits for room also after what they took, and with SysTick every millisecond. Whoever
+/// polls more often notices sooner that something is missing.
 class HostAtBoardPace final : public bridge::FirmwareNode {
  public:
   HostAtBoardPace(hal::CanBus& bus0, hal::CanBus& bus1, const hal::Clock& clock,
@@ -82,7 +83,8 @@ class HostAtBoardPace final : public bridge::FirmwareNode {
         loop_({&buses_[0], &buses_[1]}, clock, board_, parameters) {}
 
   void poll(std::uint32_t) override {
-    const bool by_bus0 = buses_[0].wakes(), by_bus1 = buses_[1].wakes();
+    const bool for_room = loop_.waits_for_room();
+    const bool by_bus0 = buses_[0].wakes(for_room), by_bus1 = buses_[1].wakes(for_room);
     if (by_bus0 || by_bus1 || clock_.now_ns() % 1'000'000 == 0) loop_.poll();
   }
   const firmware::app::Telemetry& telemetry() const override { return loop_.telemetry(); }

@@ -34,6 +34,27 @@ std::size_t part_of(const std::string& name) {
   return contains(name, "4hoof") ? kParts - 2 : kParts - 1;
 }
 
+struct StageFunction {
+  const char* mark;  // in the mangled name
+  Stage stage;
+};
+/// None of them is merged into its caller: they are called from other files, or from several
+/// places. (A test sees to it that each stage is found.)
+constexpr StageFunction kStageFunctions[] = {
+    {"3app5Inbox5drainE", Stage::kReceive},
+    {"7control14FootController4stepE", Stage::kControl},
+    {"9GeneratorIfLi1EE4workEv", Stage::kPlan},
+    {"9GeneratorIfLi2EE4workEv", Stage::kPlan},
+    {"6safety10TorqueGate7inspectE", Stage::kGate},
+    {"6safety10TorqueGate5checkE", Stage::kGate},
+    {"3app11ControlLoop5writeE", Stage::kSend},
+    {"3app11ControlLoop6recordE", Stage::kTelemetry},
+    {"3app11ControlLoop5traceE", Stage::kTelemetry},
+    {"3app15telemetry_frameE", Stage::kTelemetry},
+    {"3app11ControlLoop21send_heartbeat_if_dueE", Stage::kTelemetry},
+    {"3app11ControlLoop4tickE", Stage::kTick},
+};
+
 /// LDR and VLDR of a literal (Armv7-M, A7.7.44, A7.7.236).
 std::optional<std::uint32_t> literal_address(std::uint32_t address, std::uint16_t first,
                                              std::uint16_t second) {
@@ -72,6 +93,9 @@ TickCostCounter::Place TickCostCounter::examine(std::uint32_t address) {
   if (function == nullptr) return place;
   place.part = std::uint8_t(part_of(function->name));
   const bool entry = (function->address & ~1u) == address;
+  for (const StageFunction& each : kStageFunctions) {
+    if (entry && contains(function->name, each.mark)) place.stage = each.stage;
+  }
   place.tick_begins = entry && contains(function->name, "11ControlLoop4tickE");
   place.plans = entry && contains(function->name, "10trajectory7Planner") &&
                 contains(function->name, "4workEv");
@@ -87,6 +111,23 @@ const TickCostCounter::Place& TickCostCounter::place_at(std::uint32_t address) {
   return *place;
 }
 
+void TickCostCounter::follow(std::uint32_t address, const Place& place, bool jumped) {
+  // One that ended with a jump into another function ends where that one returns to the same place.
+  while (!open_.empty() && address == open_.back().back &&
+         board_.cpu().registers().sp >= open_.back().stack) {
+    open_.pop_back();
+  }
+  if (place.handler && jumped) {
+    // One handler after another without a return between: the same interruption.
+    if (open_.empty() || open_.back().stage != Stage::kInterrupt) {
+      open_.push_back({Stage::kInterrupt, expected_, board_.cpu().registers().sp + 1});
+    }
+  } else if (place.stage) {
+    const auto now = board_.cpu().registers();
+    open_.push_back({*place.stage, now.lr & ~1u, now.sp});
+  }
+}
+
 void TickCostCounter::execute(std::uint32_t address) {
   const Place& place = place_at(address);
   if (!place.timing.known) {
@@ -99,6 +140,7 @@ void TickCostCounter::execute(std::uint32_t address) {
   }
   now_.plans = now_.plans || place.plans;
   const bool jumped = address != expected_;
+  follow(address, place, jumped);
   std::uint32_t cycles = place.timing.cycles + (jumped ? kCycleRule.refill : 0);
   if (place.handler && jumped) cycles += 2 * kExceptionCycles;
   if ((place.timing.fp_reads & late_registers_) != 0) cycles += kCycleRule.fp_result_used_next;
@@ -108,6 +150,8 @@ void TickCostCounter::execute(std::uint32_t address) {
   now_.cycles += cycles;
   ++now_.instructions;
   ++now_.part_instructions[place.part];
+  const Stage stage = open_.empty() ? Stage::kPoll : open_.back().stage;
+  ++now_.stage_instructions[std::size_t(stage)];
   expected_ = address + place.timing.bytes;
   late_registers_ = place.timing.fp_late_writes;
 }

@@ -21,12 +21,30 @@ inline constexpr std::array kPartNames = {"app",      "control", "trajectory", "
                                           "protocol", "board",   "library"};
 inline constexpr std::size_t kParts = kPartNames.size();
 
+/// What a tick does, by the function on the chain of calls that was entered last; kStageFunctions
+/// in tick_cost.cpp names them. What the compiler merged into another function counts there.
+enum class Stage : std::uint8_t {
+  kReceive,    // frames taken from the buses, checked and decoded
+  kControl,    // modes, set points, kinematics, what the leg feels
+  kPlan,       // of control: planning of trajectories
+  kGate,       // replies inspected, wishes judged
+  kSend,       // commands encoded and handed to the bus
+  kTelemetry,  // what is told: record, frame, heartbeat, fault log's trace
+  kTick,       // the rest of the loop's tick
+  kInterrupt,  // handlers
+  kPoll,       // the rest: the main loop's polls and its way to sleep
+};
+inline constexpr std::array kStageNames = {"receive",   "control", "plan",      "gate", "send",
+                                           "telemetry", "tick",    "interrupt", "poll"};
+inline constexpr std::size_t kStages = kStageNames.size();
+
 /// All that runs from one begin of the loop's tick to the next one: the tick, its frames, the
 /// interrupts, and the polls that find nothing to do.
 struct TickCost {
   std::uint64_t instructions = 0;
   std::uint64_t cycles = 0;
   std::array<std::uint64_t, kParts> part_instructions{};
+  std::array<std::uint64_t, kStages> stage_instructions{};
   bool plans = false;  // the trajectory generator's planner worked in it
 };
 
@@ -46,10 +64,19 @@ class TickCostCounter {
     bool tick_begins = false;
     bool plans = false;
     bool handler = false;                  // the first instruction of an exception's handler
+    std::optional<Stage> stage;            // the first instruction of a function that is one
     std::optional<std::uint32_t> literal;  // address that it loads from
   };
 
+  /// A stage under way.
+  struct Open {
+    Stage stage;
+    std::uint32_t back = 0;   // the instruction after it
+    std::uint32_t stack = 0;  // pointer when it began; at its end it is there again, or above
+  };
+
   void execute(std::uint32_t address);
+  void follow(std::uint32_t address, const Place& place, bool jumped);
   const Place& place_at(std::uint32_t address);
   Place examine(std::uint32_t address);
 
@@ -59,6 +86,7 @@ class TickCostCounter {
   tests::cost::FlashAccelerator flash_;
   std::uint32_t expected_ = 0;
   std::uint32_t late_registers_ = 0;
+  std::vector<Open> open_;
   bool begun_ = false;
   TickCost now_;
   std::vector<TickCost> ticks_;

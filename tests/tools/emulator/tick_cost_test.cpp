@@ -16,17 +16,26 @@ constexpr double kRoom = 1.1;
 // At 168 MHz: 20 us of an ordinary tick, 50 of one that plans.
 constexpr std::uint64_t kOrdinary_cycles = 20 * 168, kPlanning_cycles = 50 * 168;
 
+void require_within(const char* what, double stored, double now) {
+  CAPTURE(what, now, stored);
+  CHECK(now <= kRoom * stored);
+  // Much less than stored: the stored value no longer guards anything.
+  CHECK(now >= stored / kRoom);
+}
+
 void require_within(const nlohmann::json& stored, const CostSummary& now) {
   const auto gate = [&](const char* key, double value) {
-    CAPTURE(key, value, stored.at(key));
-    CHECK(value <= kRoom * stored.at(key).get<double>());
-    // Much less than stored: the stored value no longer guards anything.
-    CHECK(value >= stored.at(key).get<double>() / kRoom);
+    require_within(key, stored.at(key), value);
   };
   gate("mean_instructions", now.mean_instructions);
   gate("most_instructions", double(now.most_instructions));
   gate("most_cycles", double(now.most_cycles));
   gate("most_planning_cycles", double(now.most_planning_cycles));
+  for (std::size_t i = 0; i < test::kStages; ++i) {
+    const auto& pair = stored.at("stages").at(test::kStageNames[i]);
+    require_within(test::kStageNames[i], pair.at(0), now.stages[i].mean);
+    require_within(test::kStageNames[i], pair.at(1), double(now.stages[i].most));
+  }
 }
 
 }  // namespace
@@ -46,7 +55,14 @@ TEST_CASE(
 TEST_CASE("the parts of a tick are all of it") {
   const CostSummary cost = test::measure_cost("traction", {}, 300);
   double sum = 0;
-  for (const double mean : cost.part_mean) sum += mean;
+  for (const test::MeanAndMost& part : cost.parts) sum += part.mean;
+  CHECK(sum == Approx(cost.mean_instructions));
+  sum = 0;
+  for (std::size_t i = 0; i < test::kStages; ++i) {
+    CAPTURE(test::kStageNames[i]);
+    CHECK(cost.stages[i].mean > 0);  // its function was merged into another, or has another name
+    sum += cost.stages[i].mean;
+  }
   CHECK(sum == Approx(cost.mean_instructions));
   CHECK(cost.ticks > 290);
   CHECK(cost.planning_ticks > 0);
