@@ -41,8 +41,8 @@ struct System {
   bool only_core_and_lines() const;
 
   /// Once per turn of the main loop: buses joining and recovering, the next measurement, then sleep
-  /// until there is work: a frame has come, a millisecond has passed, a bus or the e-stop has changed
-  /// its state.
+  /// until there is work: a frame has come, a millisecond has passed, a bus or the e-stop has
+  /// changed its state.
   /// @param for_room work is also that a frame was sent: another waits for its place
   void rest(bool for_room);
   /// The same where nothing but the lines can bring anything.
