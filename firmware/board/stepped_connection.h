@@ -50,6 +50,7 @@ class SteppedConnection final : public hal::CanBus {
   }
 
   hal::BusStatus status() const override { return status_; }
+  bool bus_off() const override { return status_.bus_off; }
 
  private:
   Way& way_;

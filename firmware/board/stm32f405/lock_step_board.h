@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 
 #include "firmware/app/control_loop.h"
 #include "firmware/board/stepped_connection.h"
@@ -55,8 +56,10 @@ class LockStepBoard final : public hal::Board {
   hal::ResetCause reset_cause() const override { return hal::ResetCause::kPowerOn; }
   void feed_watchdog() override {}
   bool emergency_stop_pressed() const override { return false; }
+  void allow_drives(bool) override {}
   bool supply_low() const override { return false; }
   float supply_V() const override { return 0.0f; }
+  float temperature_C() const override { return std::numeric_limits<float>::quiet_NaN(); }
 
  private:
   using Connection = board::SteppedConnection<SerialBus, SerialBus::kQueue>;
