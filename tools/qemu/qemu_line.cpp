@@ -33,15 +33,7 @@ std::string QemuLine::advice() const {
 }
 
 bool QemuLine::flush() {
-  const hal::MonotonicClock clock;
-  const std::int64_t give_up_ns = clock.now_ns() + kLongestFlush_ns;
-  SlcanClient& first = clients_[1];
-  while (first.failure().empty() && (!first.flush() || first.untaken() > 0)) {
-    const std::int64_t left_ns = give_up_ns - clock.now_ns();
-    if (left_ns <= 0) return false;
-    first.wait(left_ns);
-  }
-  return clients_[0].flush() || !clients_[0].failure().empty();
+  return flush_in_order(clients_[1], clients_[0], kLongestFlush_ns);
 }
 
 std::string QemuLine::gone() {

@@ -22,7 +22,7 @@ class QemuLine final : public bridge::FootLine {
   bool one_interface() const override { return false; }
   hal::CanBus& bus(int index) override { return clients_[std::size_t(index)]; }
   void wait(std::int64_t longest_ns) override { clients_[0].wait(longest_ns); }
-  /// Waits until the image has taken the frames of bus 1: two lines keep no order.
+  /// Waits until the image has taken the frames of bus 1.
   bool flush() override;
   std::string gone() override;
 

@@ -122,4 +122,15 @@ void SlcanClient::take_line(const std::string& line, char end) {
   }
 }
 
+bool flush_in_order(SlcanClient& first, SlcanClient& then, std::int64_t longest_ns) {
+  const hal::MonotonicClock clock;
+  const std::int64_t give_up_ns = clock.now_ns() + longest_ns;
+  while (first.failure().empty() && (!first.flush() || first.untaken() > 0)) {
+    const std::int64_t left_ns = give_up_ns - clock.now_ns();
+    if (left_ns <= 0) return false;
+    first.wait(left_ns);
+  }
+  return then.flush() || !then.failure().empty();
+}
+
 }  // namespace hoof::tools::qemu

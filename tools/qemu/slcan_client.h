@@ -47,4 +47,8 @@ class SlcanClient final : public hal::CanBus {
   std::string failure_;
 };
 
+/// Two lines keep no order among each other: what `then` keeps is written once the other end has
+/// taken all that `first` kept, or never will. @return false where not all of it is written in time
+bool flush_in_order(SlcanClient& first, SlcanClient& then, std::int64_t longest_ns);
+
 }  // namespace hoof::tools::qemu

@@ -104,6 +104,31 @@ TEST_CASE("slcan client: frames both ways, in pieces too, and how many are not t
   CHECK(client.send(fd) == hal::SendResult::kInvalid);
 }
 
+TEST_CASE("slcan client: of two lines the second waits until the first one's frames are taken") {
+  Rig rig1, rig0;
+  SlcanClient client1("USART2", rig1.ends[0]), client0("USART1", rig0.ends[0]);
+  rig1.open(client1);
+  rig0.open(client0);
+  client0.send(frame_with(0x100, 0));
+  CHECK(flush_in_order(client1, client0, kLong_ns));  // nothing to wait for
+  CHECK(rig0.hear() == "t100100\r");
+  client1.send(frame_with(0x201, 1));
+  client1.send(frame_with(0x202, 2));
+  client0.send(frame_with(0x101, 3));
+  CHECK_FALSE(flush_in_order(client1, client0, kShort_ns));
+  rig1.say("z\r");
+  CHECK_FALSE(flush_in_order(client1, client0, kShort_ns));
+  CHECK(rig1.hear() == "t201101\rt202102\r");
+  CHECK(rig0.hear().empty());
+  rig1.say("z\r");
+  CHECK(flush_in_order(client1, client0, kLong_ns));
+  CHECK(rig0.hear() == "t101103\r");
+  // A line that is dead is waited for no longer; whoever asks the other end will notice.
+  client1.send(frame_with(0x203, 4));
+  rig1.hang_up();
+  CHECK(flush_in_order(client1, client0, kLong_ns));
+}
+
 TEST_CASE("slcan client: a refusal, an answer that is none and an end are failures for good") {
   struct Case {
     const char* said;
