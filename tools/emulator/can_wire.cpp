@@ -32,6 +32,7 @@ class BusWire final : public CanWire {
       in_process_->on_sent([this](const hal::CanFrame& frame) { sent_.push_back(frame); });
     }
     counted_ = bus_.status().sent;
+    mailboxes_ = bus_.status().free;
   }
   ~BusWire() override {
     if (in_process_ != nullptr) in_process_->on_sent({});
@@ -39,7 +40,9 @@ class BusWire final : public CanWire {
 
   bool offer(const hal::CanFrame& frame) override {
     if (bus_.send(frame) != hal::SendResult::kQueued) return false;
-    if (in_process_ == nullptr) offered_.push_back(frame);
+    if (in_process_ != nullptr) return true;
+    offered_.push_back(frame);
+    tells_free_ = tells_free_ || bus_.status().free < mailboxes_;
     return true;
   }
 
@@ -55,9 +58,12 @@ class BusWire final : public CanWire {
 
   std::vector<hal::CanFrame> take_sent() override {
     if (in_process_ != nullptr) return std::exchange(sent_, {});
-    const std::uint64_t total = bus_.status().sent;
-    const auto count = std::min<std::size_t>(total - counted_, offered_.size());
-    counted_ = total;
+    const hal::BusStatus now = bus_.status();
+    // Where nothing waits any more everything has gone out, or was lost on purpose on the way.
+    const auto count = tells_free_ && now.free == mailboxes_
+                           ? offered_.size()
+                           : std::min<std::size_t>(now.sent - counted_, offered_.size());
+    counted_ = now.sent;
     const auto end = offered_.begin() + std::ptrdiff_t(count);
     std::vector<hal::CanFrame> sent(offered_.begin(), end);
     offered_.erase(offered_.begin(), end);
@@ -76,6 +82,8 @@ class BusWire final : public CanWire {
   std::vector<hal::CanFrame> sent_;     // in process: as told
   std::vector<hal::CanFrame> offered_;  // else: not yet counted as sent
   std::uint64_t counted_ = 0;
+  std::uint8_t mailboxes_ = 0;
+  bool tells_free_ = false;  // SocketCAN cannot
 };
 
 }  // namespace

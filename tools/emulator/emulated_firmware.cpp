@@ -12,6 +12,8 @@ constexpr Cycles kHeartbeatPeriod =
     firmware::protocol::spec(firmware::protocol::Message::kHeartbeat).cycle_ms *
     kCyclesPerMillisecond;
 
+constexpr double kSupply_V = 48;  // of the drives
+
 /// Its counter has four bits: this many later it is what it was in the first.
 constexpr int kHeartbeatCounts = 16;
 
@@ -48,12 +50,29 @@ EmulatedFirmware::EmulatedFirmware(const ElfFile& image, hal::RamFlash flash, Bu
   }
 }
 
+void EmulatedFirmware::act_on_board() {
+  if (asked_.pressed != acted_.pressed) board_.press_emergency_stop(asked_.pressed);
+  if (asked_.low != acted_.low) board_.set_supply_low(asked_.low);
+  if (asked_.volts != acted_.volts) {
+    BoardVoltages voltages = board_.voltages();
+    voltages.supply_V = asked_.volts == 0 ? kSupply_V : double(asked_.volts);
+    board_.set_voltages(voltages);
+  }
+  acted_ = asked_;
+}
+
+bool EmulatedFirmware::restart(hal::ResetCause cause) {
+  cause == hal::ResetCause::kPowerOn ? board_.power_on() : board_.reset(cause);
+  return true;
+}
+
 void EmulatedFirmware::poll(std::uint32_t) {
   const std::int64_t now_ns = clock_.now_ns();
   hal::CanFrame frame;
   for (hal::CanBus* listener : listeners_) {
     while (listener->receive(frame)) told_.take(frame, now_ns);
   }
+  act_on_board();
   board_.advance_to(start_ + cycles_of_ns(now_ns));
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "firmware/app/parameters.h"
+#include "hal/in_process/soft_board.h"
 #include "hil_bridge/bus_telemetry.h"
 #include "hil_bridge/firmware_node.h"
 #include "hil_bridge/wires.h"
@@ -32,13 +33,20 @@ class EmulatedFirmware final : public bridge::FirmwareNode {
 
   void poll(std::uint32_t tick) override;
   const firmware::app::Telemetry& telemetry() const override { return told_.latest(); }
+  /// What is asked of it acts with the next poll: button, early warning, supply (0: nothing is
+  /// wired, or the 48 V are back).
+  hal::SoftBoard* board() override { return &asked_; }
+  bool restart(hal::ResetCause cause) override;
 
   Board& emulated_board() { return board_; }
   hal::RamFlash& flash() { return flash_; }
 
  private:
+  void act_on_board();
+
   hal::RamFlash flash_;
   Board board_;
+  hal::SoftBoard asked_, acted_;
   Buses listeners_;
   const hal::Clock& clock_;
   bridge::BusTelemetry told_;

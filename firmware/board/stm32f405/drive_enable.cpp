@@ -24,10 +24,14 @@ void DriveEnable::start(std::uint32_t timer_Hz) {
 }
 
 void DriveEnable::allow(bool allowed) {
+  if (allowed && on_) return;  // after a break the loop sees its flag, and stops first
   if (allowed) {
-    if (!broken() && !timer_.BDTR.has(timer::kMainOutput)) timer_.BDTR.set(timer::kMainOutput);
+    if (broken()) return;
+    timer_.BDTR.set(timer::kMainOutput);
+    on_ = true;
     return;
   }
+  on_ = false;
   timer_.BDTR.clear(timer::kMainOutput);
   if (!broken()) return;
   timer_.SR.write(~timer::kBreak);  // has no effect while the loop is open

@@ -33,6 +33,7 @@ class DriveEnable {
 
  private:
   TimerRegisters& timer_;
+  bool on_ = false;  // as asked for; a break may have taken it away since
 };
 
 }  // namespace hoof::firmware::stm32f405

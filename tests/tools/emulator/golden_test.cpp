@@ -1,8 +1,5 @@
 // Host build and board's image, the same test: they must say the same, byte for byte.
-#include <catch2/catch.hpp>
-#include <cstdlib>
-
-#include "tests/tools/emulator/image_bench.h"
+#include "tests/tools/emulator/golden.h"
 
 using namespace hoof;
 using test::RunRecord;
@@ -10,37 +7,9 @@ using test::SeenFrame;
 
 namespace {
 
-bool full() {
-  return std::getenv("HOOF_FULL_TESTS") != nullptr;
-}
-
-std::string text(const SeenFrame& s) {
-  std::string line = std::to_string(s.frame.stamp_ns) + " ns bus " + std::to_string(s.bus) +
-                     " id " + std::to_string(s.frame.id) + ":";
-  for (int i = 0; i < s.frame.length; ++i) line += " " + std::to_string(s.frame.data[i]);
-  return line;
-}
-
-/// Every frame on both buses, with its time to the nanosecond.
-/// @param least_commands so many of them are drive commands, or the test compares too little
-void require_same(const RunRecord& host, const RunRecord& board, std::size_t least_commands) {
-  const std::size_t count = std::min(host.frames.size(), board.frames.size());
-  std::size_t commands = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const SeenFrame& a = host.frames[i];
-    const SeenFrame& b = board.frames[i];
-    const bool same = a.bus == b.bus && a.frame.id == b.frame.id &&
-                      a.frame.stamp_ns == b.frame.stamp_ns && a.frame == b.frame;
-    if (!same) FAIL("frame " << i << ", host " << text(a) << "\n           image " << text(b));
-    if (test::is_command(a.frame)) ++commands;
-  }
-  CHECK(host.frames.size() == board.frames.size());
-  CHECK(commands >= least_commands);
-  CHECK(host.result.ticks == board.result.ticks);
-  CHECK(host.result.toe_reached_rad == board.result.toe_reached_rad);
-}
-
-void compare(const std::string& kind, const std::vector<std::string>& set, std::uint32_t ticks) {
+/// @return ticks compared
+std::uint32_t compare(const std::string& kind, const std::vector<std::string>& set,
+                      std::uint32_t ticks = UINT32_MAX) {
   const tools::RunSettings run = test::rigid_run(kind, set);
   // Without faults nothing is missing, and the pace of the polls does not matter.
   const RunRecord host = test::record_run(
@@ -49,7 +18,8 @@ void compare(const std::string& kind, const std::vector<std::string>& set, std::
   // One a tick. A fault takes SYNC or the wire away for at most 0.05 s, and for the 20 ms (and the
   // tick in which that is seen) after which the foot takes it for lost.
   const std::size_t taken = run.faults.empty() ? 0 : 50 + 21;
-  require_same(host, board, host.result.ticks - taken);
+  test::require_same(host, board, host.result.ticks - taken);
+  return host.result.ticks;
 }
 
 }  // namespace
@@ -57,13 +27,22 @@ void compare(const std::string& kind, const std::vector<std::string>& set, std::
 TEST_CASE("golden: sinkage on the rigid floor, host and image") {
   for (const char* toe : {"0", "20", "40"}) {
     CAPTURE(toe);
-    compare("sinkage", {std::string("experiment.toe_deg=") + toe}, UINT32_MAX);
+    compare("sinkage", {std::string("experiment.toe_deg=") + toe});
   }
+  if (!test::full()) return;
+  // Lowered by 1 mm/s.
+  const std::uint32_t ticks = compare("sinkage",
+                                      {"experiment.toe_deg=20", "experiment.start_height_mm=60",
+                                       "experiment.speed_m_s=0.001", "experiment.time_limit_s=60"},
+                                      20'000);
+  CHECK(ticks == 20'000);
 }
 
 TEST_CASE("golden: traction on the rigid floor, host and image") {
-  compare("traction", {"experiment.frequency_Hz=1", "experiment.toe_deg=20"},
-          full() ? 20'000 : 4'000);
+  const std::uint32_t ticks = test::full() ? 20'000 : 4'000;
+  CHECK(compare("traction",
+                {"experiment.frequency_Hz=1", "experiment.toe_deg=20", "experiment.cycles=20"},
+                ticks) == ticks);
 }
 
 TEST_CASE("golden: faults of frames, nodes, drives and encoders, host and image") {
@@ -94,7 +73,7 @@ TEST_CASE("golden: faults of frames, nodes, drives and encoders, host and image"
     std::vector<std::string> set = {"fault.0.at_s=0.3"};
     for (const std::string& entry : fault) set.push_back("fault.0." + entry);
     CAPTURE(fault[0], fault[1]);
-    compare("sinkage", set, UINT32_MAX);
+    compare("sinkage", set);
   }
 }
 

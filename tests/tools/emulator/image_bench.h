@@ -78,24 +78,41 @@ class HostAtBoardPace final : public bridge::FirmwareNode {
  public:
   HostAtBoardPace(hal::CanBus& bus0, hal::CanBus& bus1, const hal::Clock& clock,
                   const firmware::app::Parameters& parameters)
-      : buses_{WakingBus(bus0, 0), WakingBus(bus1, 1)},
-        clock_(clock),
-        loop_({&buses_[0], &buses_[1]}, clock, board_, parameters) {}
+      : buses_{WakingBus(bus0, 0), WakingBus(bus1, 1)}, clock_(clock), parameters_(parameters) {
+    start();
+  }
 
   void poll(std::uint32_t) override {
-    const bool for_room = loop_.waits_for_room();
+    const bool for_room = loop_->waits_for_room();
     const bool by_bus0 = buses_[0].wakes(for_room), by_bus1 = buses_[1].wakes(for_room);
-    if (by_bus0 || by_bus1 || clock_.now_ns() % 1'000'000 == 0) loop_.poll();
+    const bool by_break = board_.pressed && !was_pressed_;
+    was_pressed_ = board_.pressed;
+    if (by_bus0 || by_bus1 || by_break || clock_.now_ns() % 1'000'000 == 0) loop_->poll();
   }
-  const firmware::app::Telemetry& telemetry() const override { return loop_.telemetry(); }
-  firmware::control::Mode mode() const override { return loop_.mode(); }
-  firmware::control::FaultBits faults() const override { return loop_.faults(); }
+  const firmware::app::Telemetry& telemetry() const override { return loop_->telemetry(); }
+  firmware::control::Mode mode() const override { return loop_->mode(); }
+  firmware::control::FaultBits faults() const override { return loop_->faults(); }
+  hal::SoftBoard* board() override { return &board_; }
+  /// As a board, which polls once before it first sleeps.
+  bool restart(hal::ResetCause cause) override {
+    board_.cause = cause;
+    start();
+    loop_->poll();
+    return true;
+  }
 
  private:
+  void start() {
+    const firmware::app::ControlLoop::Buses buses{&buses_[0], &buses_[1]};
+    loop_.emplace(buses, clock_, board_, parameters_);
+  }
+
   std::array<WakingBus, 2> buses_;
   const hal::Clock& clock_;
+  firmware::app::Parameters parameters_;
   hal::SoftBoard board_;
-  firmware::app::ControlLoop loop_;
+  bool was_pressed_ = false;
+  std::optional<firmware::app::ControlLoop> loop_;  // always there; it can start anew
 };
 
 inline FirmwareOn host_at_board_pace(const tools::RunSettings& run) {

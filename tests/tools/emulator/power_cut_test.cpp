@@ -126,11 +126,14 @@ TEST_CASE("power cut: at every write and erase of a store the board keeps the ol
   store(before, kOld);
   const std::size_t step = full() ? 1 : 9;
   int cuts = 0, old_sets = 0, new_sets = 0;
+  std::size_t erases = 0;
   for (std::size_t n = 0;; n += step) {
     CAPTURE(int(outcome), n);
     hal::RamFlash flash = before;
+    const std::size_t erased = flash.erases();
     if (!cut_a_store(flash, n, outcome)) break;
     ++cuts;
+    if (n == 0) erases = flash.erases() - erased;  // it begins with one
     const float value = stored(flash);
     CHECK((value == kOld || value == kNew));
     (value == kOld ? old_sets : new_sets) += 1;
@@ -140,6 +143,7 @@ TEST_CASE("power cut: at every write and erase of a store the board keeps the ol
   CAPTURE(cuts, old_sets, new_sets);
   CHECK(cuts > (full() ? 60 : 6));
   CHECK(old_sets > 0);
+  CHECK(erases == 1);
 }
 
 TEST_CASE("power cut: while a fault is written to its log the next start is in order") {
@@ -171,4 +175,62 @@ TEST_CASE("power cut: while a fault is written to its log the next start is in o
     CHECK(again.client().read_parameter(index_of("toe_kp_Nm_rad")) == kOld);
   }
   CHECK(cuts > (full() ? 200 : 5));
+}
+
+namespace {
+
+/// Starts, is in mode off without a fault, and stores.
+void require_whole(hal::RamFlash& flash) {
+  {
+    PoweredBoard again(flash);
+    again.run_ms(300);
+    REQUIRE(again.heartbeat());
+    CHECK(again.heartbeat()->mode == protocol::Mode::kOff);
+    CHECK(again.heartbeat()->faults == 0);
+    CHECK(again.board().resets() == 0);
+  }
+  store(flash, kLater);
+  CHECK(stored(flash) == kLater);
+}
+
+}  // namespace
+
+TEST_CASE("power cut: at every write and erase of a part's first start, and of emptying its log") {
+  const bool first_start = GENERATE(true, false);
+  const auto outcome = GENERATE(hal::CutOutcome::kOld, hal::CutOutcome::kNew,
+                                hal::CutOutcome::kMixed, hal::CutOutcome::kUnstable);
+  hal::RamFlash before = blank_flash();
+  if (!first_start) {
+    store(before, kOld);
+    PoweredBoard foot(before);
+    foot.run_ms(20);
+    foot.board().press_emergency_stop(true);
+    foot.run_ms(400);  // a record in the log
+  }
+  int cuts = 0;
+  std::size_t erases = 0;
+  for (std::size_t n = 0;; ++n) {
+    CAPTURE(first_start, int(outcome), n);
+    hal::RamFlash flash = before;
+    const std::size_t erased = flash.erases();
+    {
+      if (first_start) flash.cut_after(n, outcome);
+      PoweredBoard foot(flash);
+      if (!first_start) {
+        foot.client().connect();
+        flash.cut_after(n, outcome);
+        try {
+          foot.client().erase_fault_log();
+        } catch (const bridge::ServiceError&) {
+        }
+      }
+      flash.cancel_cut();
+      if (foot.board().powered()) break;
+    }
+    ++cuts;
+    erases += flash.erases() - erased;
+    require_whole(flash);
+  }
+  CHECK(cuts >= 2);
+  CHECK(erases >= 1);
 }

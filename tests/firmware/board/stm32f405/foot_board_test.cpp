@@ -196,6 +196,7 @@ TEST_CASE("board: CAN lets through what the dictionary addresses to the foot, th
     std::set<std::uint32_t> wanted;
     firmware::app::for_each_received_id(bus, [&](std::uint32_t id) { wanted.insert(id); });
     REQUIRE_FALSE(wanted.empty());
+    REQUIRE(wanted.count(firmware::app::kEmergencyStopId) == 1);  // on either bus
     for (std::uint32_t id = 0; id < 0x800; ++id) {
       CAPTURE(bus, id);
       const auto fifo = can.filtered(bus, id << 21);
