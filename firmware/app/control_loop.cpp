@@ -165,7 +165,8 @@ void ControlLoop::answer_services(std::int64_t now_ns) {
 }
 
 /// In mode off only: no drive is under torque. Which drives there are counts from the next start.
-void ControlLoop::adopt_parameters() {
+/// Apart, for its settings would else lie on the stack below everything that a service does.
+[[gnu::noinline]] void ControlLoop::adopt_parameters() {
   controller_.configure(parameters_.settings(), controller_.presence());
   for (std::size_t i = 0; i < control::kJointCount; ++i) {
     const auto joint = static_cast<Joint>(i);

@@ -2,7 +2,10 @@
 
 #include <unicorn/unicorn.h>
 
+#include <cstring>
 #include <exception>
+#include <memory>
+#include <new>
 #include <utility>
 #include <vector>
 
@@ -28,7 +31,23 @@ struct Cpu::Machine {
     std::uint32_t base;
   };
 
+  /// Plain memory. It is read and written where it lies: by way of Unicorn each access would search
+  /// the translated code for what it invalidates.
+  struct Memory {
+    static constexpr std::size_t kPage = 4096;
+    struct Free {
+      void operator()(std::uint8_t* bytes) const {
+        ::operator delete[](bytes, std::align_val_t{kPage});
+      }
+    };
+
+    std::uint32_t base;
+    std::uint32_t size;
+    std::unique_ptr<std::uint8_t[], Free> bytes;
+  };
+
   uc_engine* engine = nullptr;
+  std::vector<Memory> memories;
   std::vector<std::unique_ptr<Window>> windows;
   std::exception_ptr error;
   Fault fault;
@@ -45,6 +64,16 @@ struct Cpu::Machine {
   ~Machine() { uc_close(engine); }
 
   void stop() { uc_emu_stop(engine); }
+
+  /// Null where not all of it is plain memory.
+  std::uint8_t* memory_at(std::uint32_t address, std::size_t size) {
+    for (Memory& m : memories) {
+      if (address >= m.base && address - m.base <= m.size && size <= m.size - (address - m.base)) {
+        return m.bytes.get() + (address - m.base);
+      }
+    }
+    return nullptr;
+  }
 
   /// Exceptions must not pass through the emulator's code.
   template <typename Call>
@@ -115,6 +144,9 @@ Cpu::Cpu(std::function<bool()> interrupt_waits) : machine_(std::make_unique<Mach
   m.interrupt_waits = std::move(interrupt_waits);
   require(uc_open(UC_ARCH_ARM, uc_mode(UC_MODE_THUMB | UC_MODE_MCLASS), &m.engine), "open");
   require(uc_ctl_set_cpu_model(m.engine, UC_CPU_ARM_CORTEX_M4), "choose a Cortex-M4");
+  // A list of addresses to stop at, which stays empty: with the one that uc_emu_start() is given,
+  // each start would search the translated code for it.
+  require(uc_ctl_exits_enable(m.engine), "have no address to stop at");
   m.hook(UC_HOOK_INTR, Machine::on_interrupt);
   m.hook(UC_HOOK_MEM_INVALID, Machine::on_invalid);
   m.hook(UC_HOOK_BLOCK, Machine::on_block);
@@ -124,7 +156,10 @@ Cpu::~Cpu() = default;
 
 void Cpu::map_memory(std::uint32_t base, std::uint32_t bytes, Access access) {
   const std::uint32_t rights = access == Access::kAll ? UC_PROT_ALL : UC_PROT_READ | UC_PROT_EXEC;
-  require(uc_mem_map(machine_->engine, base, bytes, rights), "map memory");
+  Machine::Memory memory{base, bytes, {}};
+  memory.bytes.reset(new (std::align_val_t{Machine::Memory::kPage}) std::uint8_t[bytes]());
+  require(uc_mem_map_ptr(machine_->engine, base, bytes, rights, memory.bytes.get()), "map memory");
+  machine_->memories.push_back(std::move(memory));
 }
 
 void Cpu::map_registers(std::uint32_t base, std::uint32_t bytes, RegisterSpace& space) {
@@ -149,13 +184,18 @@ void Cpu::watch_unmasking(std::uint32_t run_address, std::span<const std::uint8_
 }
 
 bool Cpu::write_memory(std::uint32_t address, const void* bytes, std::size_t size) {
-  if (uc_mem_write(machine_->engine, address, bytes, size) != UC_ERR_OK) return false;
+  std::uint8_t* to = machine_->memory_at(address, size);
+  if (to == nullptr) return false;
+  std::memcpy(to, bytes, size);
   if (address < 0x1000'0000) uc_ctl_remove_cache(machine_->engine, address, address + size);
   return true;
 }
 
 bool Cpu::read_memory(std::uint32_t address, void* bytes, std::size_t size) {
-  return uc_mem_read(machine_->engine, address, bytes, size) == UC_ERR_OK;
+  const std::uint8_t* from = machine_->memory_at(address, size);
+  if (from == nullptr) return false;
+  std::memcpy(bytes, from, size);
+  return true;
 }
 
 namespace {

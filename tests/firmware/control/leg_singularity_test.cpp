@@ -133,7 +133,7 @@ TEST_CASE("The damped inverse is bounded, continuous, odd in sin k, and exact ou
         }
         const float out = around == 0.0f ? -0.0502f : around + 0.0502f;  // just outside: exact
         const LegAngles exact = leg.joint_velocity_rad_s({h, out}, v);
-        const PlaneVector foot = leg.foot_velocity_m_s({h, out}, exact);
+        const PlaneVector foot = leg.foot_velocity_m_s(leg.posture({h, out}), exact);
         // Speeds of some 100 rad/s in float, nearly cancelling: 100 * 6e-8 * 20.
         REQUIRE(foot.x == Approx(v.x).margin(2e-4));
         REQUIRE(foot.z == Approx(v.z).margin(2e-4));
@@ -159,7 +159,7 @@ TEST_CASE("Foot speed is J qdot: by differences, and the power of force and torq
       const double h = hip(random), k = knee(random), hd = rate(random), kd = rate(random);
       const PlaneVector f{force(random), force(random)};
       const LegAngles q{float(h), float(k)}, qd{float(hd), float(kd)};
-      const PlaneVector v = leg.foot_velocity_m_s(q, qd);
+      const PlaneVector v = leg.foot_velocity_m_s(leg.posture(q), qd);
       const double e = 1e-6;
       CAPTURE(thigh_m, shank_m, h, k, hd, kd);
       const double vx = (x(h + hd * e, k + kd * e) - x(h - hd * e, k - kd * e)) / (2 * e);

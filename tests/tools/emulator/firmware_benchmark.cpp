@@ -2,8 +2,11 @@
 // what its control ticks cost on the board; whether host, emulator and QEMU agree.
 #include <chrono>
 #include <cstdio>
+#include <ctime>
 #include <iostream>
 
+#include "hil_bridge/lock_step.h"
+#include "tests/benchmarks/lockstep_rigs.h"
 #include "tests/firmware/cost/cycle_rule.h"
 #include "tests/tools/emulator/cost_run.h"
 #include "tests/tools/emulator/image_bench.h"
@@ -12,18 +15,47 @@
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using namespace hoof;
 
+/// By the wall's clock, which QEMU's own threads need.
 template <typename Run>
 double seconds_of(const Run& run) {
-  const auto start = Clock::now();
+  const auto start = std::chrono::steady_clock::now();
   run();
-  return std::chrono::duration<double>(Clock::now() - start).count();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Of this thread's processor: what else the machine does is left out.
+double own_s() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
+}
+
+/// The whole test, with the rig.
+double seconds(const tools::RunSettings& run, const test::FirmwareOn& firmware,
+               std::uint32_t& ticks) {
+  const double start_s = own_s();
+  ticks = test::record_run(run, firmware).result.ticks;
+  return own_s() - start_s;
+}
+
+/// Ticks a second of control and bus alone: the joints are held, nothing moves.
+double held_rate(const tools::RunSettings& run, const test::FirmwareOn& firmware) {
+  constexpr int kTicks = 5'000;
+  const auto experiment = benchmarks::held(run);
+  const auto wires = bridge::in_process_wires({});
+  bridge::LockStep lock_step(*experiment, firmware(*wires), *wires);
+  lock_step.supervisor().order(firmware::protocol::Order::kReady, 0.0);
+  for (int i = 0; i < 100; ++i) lock_step.tick();
+  const double start_s = own_s();
+  for (int i = 0; i < kTicks; ++i) lock_step.tick();
+  return kTicks / (own_s() - start_s);
 }
 
 /// Commands of the three runners over the whole test, byte for byte, and QEMU's speed once it runs.
-void print_agreement(const hoof::tools::RunSettings& run) {
-  using namespace hoof::test;
+void print_agreement(const tools::RunSettings& run) {
+  using namespace test;
   const RunRecord by_host = record_run(run, host(run)), by_emulator = record_run(run, image(run));
   std::printf(
       "{\"case\": \"%s\", \"agreement_of\": %u, \"commands\": %zu, \"same_in_emulator\": %zu",
@@ -42,10 +74,10 @@ void print_agreement(const hoof::tools::RunSettings& run) {
 }
 
 double us(double cycles) {
-  return cycles / hoof::tests::cost::kClockHz * 1e6;
+  return cycles / tests::cost::kClockHz * 1e6;
 }
 
-void print_cost(const char* kind, const hoof::test::CostSummary& c) {
+void print_cost(const char* kind, const test::CostSummary& c) {
   std::printf(
       "{\"case\": \"%s\", \"cost_of\": %llu, \"mean_instructions\": %.0f, \"most_instructions\": "
       "%llu, "
@@ -59,15 +91,15 @@ void print_cost(const char* kind, const hoof::test::CostSummary& c) {
       us(double(c.most_cycles)), us(double(c.most_planning_cycles)),
       static_cast<unsigned long long>(c.planning_ticks), c.mean_planning_instructions,
       us(c.mean_planning_cycles));
-  const auto print = [](const char* what, const char* name, const hoof::test::MeanAndMost& m) {
+  const auto print = [](const char* what, const char* name, const test::MeanAndMost& m) {
     std::printf("  {\"%s\": \"%s\", \"mean_instructions\": %.0f, \"most_instructions\": %llu}\n",
                 what, name, m.mean, static_cast<unsigned long long>(m.most));
   };
-  for (std::size_t i = 0; i < hoof::test::kStages; ++i) {
-    print("stage", hoof::test::kStageNames[i], c.stages[i]);
+  for (std::size_t i = 0; i < test::kStages; ++i) {
+    print("stage", test::kStageNames[i], c.stages[i]);
   }
-  for (std::size_t i = 0; i < hoof::test::kParts; ++i) {
-    print("part", hoof::test::kPartNames[i], c.parts[i]);
+  for (std::size_t i = 0; i < test::kParts; ++i) {
+    print("part", test::kPartNames[i], c.parts[i]);
   }
 }
 
@@ -76,23 +108,22 @@ void print_cost(const char* kind, const hoof::test::CostSummary& c) {
 int main() {
   try {
     for (const char* kind : {"sinkage", "traction"}) {
-      const auto run = hoof::test::rigid_run(kind);
+      const auto run = test::rigid_run(kind);
       std::uint32_t ticks = 0;
-      const auto seconds = [&](const hoof::test::FirmwareOn& firmware) {
-        return seconds_of([&] { ticks = hoof::test::record_run(run, firmware).result.ticks; });
-      };
-      const double host_s = seconds(hoof::test::host(run));
-      const double image_s = seconds(hoof::test::image(run));
+      const double host_s = seconds(run, test::host(run), ticks);
+      const double image_s = seconds(run, test::image(run), ticks);
       std::cout << "{\"case\": \"" << kind << "\", \"ticks\": " << ticks
                 << ", \"host_ticks_per_s\": " << int(ticks / host_s)
                 << ", \"image_ticks_per_s\": " << int(ticks / image_s)
-                << ", \"image_alone_us_per_tick\": " << (image_s - host_s) / ticks * 1e6 << "}"
+                << ", \"image_alone_us_per_tick\": " << (image_s - host_s) / ticks * 1e6
+                << ", \"held_host_ticks_per_s\": " << int(held_rate(run, test::host(run)))
+                << ", \"held_image_ticks_per_s\": " << int(held_rate(run, test::image(run))) << "}"
                 << std::endl;
       print_agreement(run);
     }
     std::cout << std::flush;
-    print_cost("sinkage", hoof::test::measure_sinkage_cost());
-    print_cost("traction", hoof::test::measure_traction_cost());
+    print_cost("sinkage", test::measure_sinkage_cost());
+    print_cost("traction", test::measure_traction_cost());
   } catch (const std::exception& error) {
     std::cerr << "hoof benchmark firmware: " << error.what() << "\n";
     return 3;

@@ -97,8 +97,7 @@ TickCostCounter::Place TickCostCounter::examine(std::uint32_t address) {
     if (entry && contains(function->name, each.mark)) place.stage = each.stage;
   }
   place.tick_begins = entry && contains(function->name, "11ControlLoop4tickE");
-  place.plans = entry && contains(function->name, "10trajectory7Planner") &&
-                contains(function->name, "4workEv");
+  place.plans = place.stage == Stage::kPlan;
   return place;
 }
 
