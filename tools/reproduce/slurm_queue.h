@@ -14,8 +14,11 @@ struct QueuedTask {
   int index = 0;      // in its array
   std::string state;  // "PENDING", "RUNNING", ...
   std::string reason;
-  /// Waits for a job that is gone and will never start.
-  bool stuck() const { return reason == "DependencyNeverSatisfied"; }
+  /// Will never start by itself: waits for a job that is gone, or its launch failed and it is held
+  /// (a controller that lost its state gave it the number of a job that still ran).
+  bool stuck() const {
+    return reason == "DependencyNeverSatisfied" || reason.find("launch failed") != reason.npos;
+  }
 };
 
 /// Tasks in the queue of jobs with these names, finished ones left out.

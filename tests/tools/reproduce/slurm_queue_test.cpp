@@ -14,8 +14,10 @@ TEST_CASE("squeue's answer: one task a line, warnings and jobs without an array 
       "13|hoof-abc|RUNNING|None\n"
       "14_0|hoof-abc|PENDING|DependencyNeverSatisfied\n"
       "15_x|hoof-abc|PENDING|\n"
-      "16_1|hoof-def|COMPLETING|\n");
-  REQUIRE(tasks.size() == 4);
+      "16_1|hoof-def|COMPLETING|\n"
+      "2_3|hoof-5c4|PENDING|launch failed requeued held\n");
+  REQUIRE(tasks.size() == 5);
+  CHECK(tasks[4].stuck());
   CHECK(tasks[0].job == "12_3");
   CHECK(tasks[0].name == "hoof-abc");
   CHECK(tasks[0].index == 3);

@@ -108,7 +108,7 @@ TEST_CASE("slurm: the controller killed, jobs lost, a run made twice: the next c
   if (skipped()) return;
   const ScratchFolder scratch;
   const fs::path out = scratch.path() / "campaign";
-  const PrivateSlurm slurm;
+  PrivateSlurm slurm;
   // One at a time, so that most of the array still waits.
   const Outcome begun = run_program(by_slurm(out, {"--at-once", "1"}));
   REQUIRE(begun.status == 0);
