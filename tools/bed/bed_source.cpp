@@ -40,12 +40,16 @@ std::string ChosenBed::key() const {
   return sim::bed_key(bed, materials, seed);
 }
 
+ChosenBed kept_bed(const sim::BedSettings& bed, const sim::Materials& materials, std::uint64_t seed,
+                   int threads) {
+  const sim::BedStore store(std::filesystem::path(HOOF_CACHE_DIR) / "beds");
+  return {bed, materials, seed, threads, store.file(bed, materials, seed)};
+}
+
 ChosenBed choose_bed(const BedOptions& options) {
   // Materials, seed and threads are a run's; a sinkage run has all that a bed needs.
   const RunSettings run = read_run_settings("sinkage", overrides_of(options));
-  const sim::BedStore store(std::filesystem::path(HOOF_CACHE_DIR) / "beds");
-  return {run.bed, run.materials, run.seed, run.threads,
-          store.file(run.bed, run.materials, run.seed)};
+  return kept_bed(run.bed, run.materials, run.seed, run.threads);
 }
 
 OpenedBed open_bed(const BedOptions& options) {

@@ -33,6 +33,10 @@ struct ChosenBed {
   std::string key() const;
 };
 
+/// The bed of such settings; its file is where runs look for it.
+ChosenBed kept_bed(const sim::BedSettings& bed, const sim::Materials& materials, std::uint64_t seed,
+                   int threads);
+
 /// The bed that the flags describe; its file is where runs look for it.
 /// @throws sim::ConfigError, UserError
 ChosenBed choose_bed(const BedOptions& options);

@@ -121,13 +121,16 @@ class Making {
 
 }  // namespace
 
+void make_bed(const ChosenBed& chosen, const MakeBedOptions& options) {
+  if (is_there(chosen, options.force)) return;
+  require_place(chosen.file);
+  Making(chosen, options).go();
+}
+
 void make_bed(const MakeBedOptions& options) {
   ChosenBed chosen = choose_bed(options.bed);
   if (!options.out.empty()) chosen.file = options.out;
-  if (!is_there(chosen, options.force)) {
-    require_place(chosen.file);
-    Making(chosen, options).go();
-  }
+  make_bed(chosen, options);
   const sim::BedState state = sim::read_bed_file(chosen.file, chosen.key());
   std::fputs(bed_text(chosen, sim::inspect_bed(chosen.bed, chosen.materials, state)).c_str(),
              stdout);

@@ -19,4 +19,7 @@ struct MakeBedOptions {
 /// @throws sim::ConfigError, UserError, CannotFinish, Interrupted
 void make_bed(const MakeBedOptions& options);
 
+/// The same of a bed that a run needs, without a report. @param options its bed and out say nothing
+void make_bed(const ChosenBed& chosen, const MakeBedOptions& options);
+
 }  // namespace hoof::tools

@@ -11,6 +11,8 @@ namespace hoof::tools {
 void add_anova_command(CLI::App& app, Invocation& invocation);
 void add_bed_command(CLI::App& app, Invocation& invocation);
 void add_calibrate_command(CLI::App& app, Invocation& invocation);
+void add_campaign_command(CLI::App& app, Invocation& invocation);
+void add_claims_command(CLI::App& app, Invocation& invocation);
 void add_compare_command(CLI::App& app, Invocation& invocation);
 void add_conceal_command(CLI::App& app, Invocation& invocation);
 void add_dbc_command(CLI::App& app, Invocation& invocation);

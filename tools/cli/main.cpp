@@ -45,6 +45,8 @@ int main(int argc, char** argv) {
   add_sinkage_command(app, invocation);
   add_traction_command(app, invocation);
   add_reproduce_command(app, invocation);
+  add_claims_command(app, invocation);
+  add_campaign_command(app, invocation);
   add_study_command(app, invocation);
   add_terrain_command(app, invocation);
   add_bed_command(app, invocation);

@@ -1,6 +1,9 @@
+#include <map>
 #include <memory>
 
 #include "tools/cli/commands.h"
+#include "tools/cli/engine_options.h"
+#include "tools/reproduce/paper_numbers.h"
 #include "tools/reproduce/reproduce.h"
 
 namespace hoof::tools {
@@ -9,10 +12,14 @@ void add_reproduce_command(CLI::App& app, Invocation& invocation) {
   auto options = std::make_shared<ReproduceOptions>();
   auto names = std::make_shared<std::vector<std::string>>();
   CLI::App* command =
-      app.add_subcommand("reproduce", "The paper's sinkage and traction, its numbers beside ours");
+      app.add_subcommand("reproduce", "The paper's experiments, its numbers beside ours");
   std::vector<std::string> known = {"all"};
   for (const auto& [name, part] : part_names()) known.push_back(name);
-  command->add_option("what", *names, "all, load, opening, traction, traction-opening")
+  for (const std::string& number : paper_numbers()) known.push_back(number);
+  command
+      ->add_option("what", *names,
+                   "all, load, opening, traction, traction-opening, table2..table5; fig5..fig29 "
+                   "tell what is known of them")
       ->type_name("WHAT")
       ->required()
       ->check(CLI::IsMember(known).description(""));
@@ -24,46 +31,68 @@ void add_reproduce_command(CLI::App& app, Invocation& invocation) {
                    "dem, or rft or rigid: quick looks that say nothing about sand [dem]")
       ->type_name("NAME")
       ->check(CLI::IsMember({"dem", "rft", "rigid"}).description(""));
+  std::map<std::string, Design> designs(design_names().begin(), design_names().end());
+  command
+      ->add_option(
+          "--design", options->design,
+          "night: 16 conditions, for fine grains on two cores; stated: the 44 that the paper "
+          "states numbers of; full: every load, 98 [stated]")
+      ->type_name("NAME")
+      ->transform(CLI::CheckedTransformer(designs).description(""));
   command->add_flag_callback(
-      "--full", [options] { options->design = Design::kFull; },
-      "Every load from 10 to 60 kg; else the conditions that the paper states numbers of");
+      "--full", [options] { options->design = Design::kFull; }, "The same as --design full");
   command->add_option("--beds", options->beds, "Bed preparations of each condition, 1..1000 [5]")
       ->type_name("N")
       ->check(CLI::Range(1, 1000));
   command->add_option("--seed", options->first_bed, "Of the first bed; the next count on [1]")
       ->type_name("S")
       ->check(CLI::NonNegativeNumber);
-  command->add_option("--threads", options->threads, "Threads of the sand solver, 1..1024")
-      ->type_name("N")
-      ->check(CLI::Range(1, 1024));
+  add_engine_options(*command, options->engine);
   command
       ->add_option("--set", options->settings,
                    "Any setting, of every run, e.g. --set experiment.time_limit_s=0.5")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  command->add_option("--out", options->out, "Folder of the campaign [runs/reproduce-BED]")
+  command
+      ->add_option(
+          "--out", options->out,
+          "Folder of the campaign [runs/reproduce-BED, of the night on fine grains -BED-night]")
       ->type_name("DIR");
-  command->add_flag("--plan", options->plan_only, "Only list the runs, and which are done");
+  command->add_flag("--plan", options->plan_only,
+                    "Only list the runs, which are done, hours and disk of the others");
   command->add_flag("--quiet", options->quiet, "Show no progress");
   command->footer(
       "Runs what is missing and reuses what is there: after Ctrl-C, a crash or a power cut the "
       "same\n"
-      "command goes on where it was. Writes summary.csv, summary.json and report.html after each\n"
-      "run. Exit status 3 where runs could not be finished.\n"
+      "command goes on where it was. Writes summary.csv, summary.json, figures/*.svg and "
+      "report.html\n"
+      "after each run. Exit status 3 where runs could not be finished. `all` makes the tables "
+      "too,\n"
+      "on grains. With --engine slurm the folder and this program must be seen by all nodes.\n"
       "Examples:\n"
       "  hoof reproduce all --plan\n"
-      "  hoof reproduce load --beds 5 --threads 2\n"
-      "  hoof reproduce opening --scale bench --beds 5 --out runs/opening\n"
+      "  hoof reproduce load --beds 5 --jobs 2\n"
+      "  hoof reproduce table3 table5\n"
+      "  hoof reproduce all --design night --scale bench      a night of two cores\n"
+      "  hoof reproduce all --full --scale paper --engine slurm --at-once 64 --time 24:00:00 "
+      "--wait\n"
       "  hoof reproduce all --terrain rft --beds 1      the chain in minutes, without grains");
   command->callback([&invocation, options, names] {
     for (const std::string& name : *names) {
+      const bool all = name == "all";
       for (const auto& [known_name, part] : part_names()) {
-        if (name == known_name) options->parts.insert(part);
+        if (all || name == known_name) options->parts.insert(part);
       }
-      if (name == "all") {
-        for (const auto& [known_name, part] : part_names()) options->parts.insert(part);
+      // The tables are of grains: no part of a quick look without them.
+      for (const std::string& number : paper_numbers()) {
+        const bool wanted =
+            all ? is_paper_table(number) && options->terrain == "dem" : name == number;
+        if (!wanted) continue;
+        (is_paper_table(number) ? options->tables : options->figures).push_back(number);
       }
     }
+    options->engine.quiet = options->quiet;
+    options->engine.cluster.threads = options->engine.threads.value_or(1);
     invocation.run = [options] { reproduce(*options); };
   });
 }

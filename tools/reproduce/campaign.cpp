@@ -1,202 +1,91 @@
 #include "tools/reproduce/campaign.h"
 
 #include <algorithm>
-#include <chrono>
-#include <iostream>
-#include <nlohmann/json.hpp>
-#include <system_error>
+#include <set>
+#include <thread>
 
-#include "sim/config/config_error.h"
-#include "tools/experiment/resume_folder.h"
-#include "tools/experiment/run_experiment.h"
+#include "tools/experiment/run_settings.h"
+#include "tools/reproduce/manifest.h"
 #include "tools/run/errors.h"
-#include "tools/run/output_file.h"
-#include "tools/run/progress_line.h"
-#include "tools/run/result_json.h"
-#include "tools/run/run_folder.h"
-#include "tools/run/sha256.h"
 
 namespace hoof::tools {
-namespace fs = std::filesystem;
-namespace {
 
-constexpr const char* kThreads = "experiment.threads";
-
-/// The folder is made before it is locked.
-const fs::path& made(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder / "cells", error);
-  if (error) throw UserError((folder / "cells").string() + ": " + error.message());
-  return folder;
+int Engine::threads_each(int cores) const {
+  if (threads) return *threads;
+  return std::max(1, jobs ? cores / *jobs : 1);
 }
 
-std::string text_of(const sim::Settings& settings, const std::string& prefix) {
-  std::string text;
-  for (const auto& [key, entry] : settings.entries()) {
-    if (key == kThreads || !key.starts_with(prefix)) continue;
-    text += key + " = " + sim::to_text(entry.value) + "\n";
+int Engine::jobs_at_once(int cores) const {
+  return jobs ? *jobs : std::max(1, cores / threads_each(cores));
+}
+
+Campaign::Campaign(const std::filesystem::path& folder, std::vector<Cell> cells,
+                   std::vector<std::string> settings)
+    : cells_(std::move(cells)), store_(folder), lock_(folder) {
+  if (lock_.taken()) {
+    throw UserError("--out " + folder.string() + ": another process is working on this campaign");
   }
-  return text;
+  for (const Cell& cell : cells_) {
+    std::vector<std::string> all = cell.overrides();
+    all.insert(all.end(), settings.begin(), settings.end());
+    planned_[cell.id()] = planned_run(cell.id(), cell.kind(), all);
+  }
 }
 
-/// The first key whose value differs, and both values.
-std::string difference(const sim::Settings& a, const sim::Settings& b) {
-  const auto text = [](const sim::Settings& settings, const std::string& key) {
-    const sim::Entry* entry = settings.find(key);
-    return entry ? sim::to_text(entry->value) : std::string("nothing");
-  };
-  for (const sim::Settings* settings : {&a, &b}) {
-    for (const auto& [key, entry] : settings->entries()) {
-      if (key != kThreads && text(a, key) != text(b, key)) {
-        return key + " is " + text(a, key) + " there and " + text(b, key) + " now";
+CampaignEnd Campaign::run(const Engine& engine, const std::function<void()>& after) {
+  const auto look = [&] {
+    std::vector<PlannedRun> missing;
+    for (const Cell& cell : cells_) {
+      if (!done(cell)) {
+        missing.push_back(planned(cell));
+      } else {
+        store_.seal_if_open(planned(cell));
       }
     }
-  }
-  return "the settings differ";
-}
-
-nlohmann::json read_json(const fs::path& file) {
-  return nlohmann::json::parse(read_file(file), nullptr, false);
-}
-
-}  // namespace
-
-std::string settings_hash(const sim::Settings& settings) {
-  return sha256_hex(text_of(settings, ""));
-}
-
-std::string geometry_hash(const sim::Settings& settings) {
-  return sha256_hex(text_of(settings, "foot."));
-}
-
-Campaign::Campaign(fs::path folder, std::vector<Cell> cells, std::vector<std::string> settings)
-    : folder_(std::move(folder)),
-      cells_(std::move(cells)),
-      settings_(std::move(settings)),
-      lock_(made(folder_)) {
-  if (lock_.taken()) {
-    throw UserError("--out " + folder_.string() + ": another process is working on this campaign");
-  }
-}
-
-std::vector<std::string> Campaign::overrides(const Cell& cell) const {
-  std::vector<std::string> all = cell.overrides();
-  all.insert(all.end(), settings_.begin(), settings_.end());
-  return all;
-}
-
-bool Campaign::done(const Cell& cell) const {
-  const fs::path result = place(cell) / "result.json", settings = place(cell) / "settings.toml";
-  if (!fs::exists(result) || !fs::exists(settings)) return false;
-  const sim::Settings planned = read_run_settings(cell.kind(), overrides(cell)).tree;
-  const sim::Settings there = sim::Settings::load_file(settings);
-  if (settings_hash(planned) != settings_hash(there)) {
-    throw UserError(place(cell).string() + ": was run with other settings: " +
-                    difference(there, planned) + "; choose another --out, or remove it");
-  }
-  if (!fs::exists(seal(cell))) {
-    // Killed between the run's end and its seal: a run's folder appears whole or not at all.
-    return read_json(result).is_object();
-  }
-  const nlohmann::json sealed = read_json(seal(cell));
-  return sealed.is_object() && sealed.value("result_sha256", "") == sha256_hex_of_file(result);
-}
-
-bool Campaign::can_be_resumed(const Cell& cell) const {
-  if (!fs::exists(resume_path(place(cell)))) return false;
-  try {
-    ResumeFolder::open(resume_path(place(cell)), cell.kind());
-    return true;
-  } catch (const UserError& error) {  // begun by another build
-    std::cerr << "hoof: " << error.what() << "; " << cell.id() << " is run anew\n";
-    return false;
-  }
-}
-
-bool Campaign::try_cell(const Cell& cell, bool quiet, std::string& why_not) const {
-  RunOutput output;
-  output.out = place(cell);
-  output.quiet = quiet;
-  output.silent = true;
-  try {
-    if (can_be_resumed(cell)) {
-      resume_experiment(cell.kind(), resume_path(place(cell)), output);
-      return true;
-    }
-    output.force = true;
-    run_experiment(read_run_settings(cell.kind(), overrides(cell)), output);
-    return true;
-  } catch (const CannotFinish& error) {
-    why_not = error.what();
-    return false;
-  } catch (const Interrupted& error) {
-    throw Interrupted("stopped in " + cell.id() +
-                          "; what is finished is kept, and the same command goes on from there",
-                      error.exit_status());
-  }
-}
-
-void Campaign::write_seal(const Cell& cell) const {
-  const fs::path result = place(cell) / "result.json";
-  const auto version = read_json(result);
-  fs::path partial = seal(cell);
-  partial += ".partial";
-  write_result_json(
-      partial,
-      {{"settings_sha256", settings_hash(sim::Settings::load_file(place(cell) / "settings.toml"))},
-       {"result_sha256", sha256_hex_of_file(result)},
-       {"code", version.contains("version") ? version["version"].value("code", "") : ""}});
-  fs::rename(partial, seal(cell));
-}
-
-std::vector<std::string> Campaign::run(bool quiet, const std::function<void(const Cell&)>& after) {
-  std::vector<const Cell*> missing;
+    return missing;
+  };
+  const int cores = int(std::max(1U, std::thread::hardware_concurrency()));
+  // Of no consequence for a result, so it is no part of a cell.
+  const int threads = engine.slurm ? engine.cluster.threads : engine.threads_each(cores);
+  std::vector<PlannedRun> all;
   for (const Cell& cell : cells_) {
-    if (!done(cell)) {
-      missing.push_back(&cell);
-    } else if (!fs::exists(seal(cell))) {
-      write_seal(cell);
-    }
+    PlannedRun& run = planned_.at(cell.id());
+    run.settings.push_back("experiment.threads=" + std::to_string(threads));
+    all.push_back(run);
   }
-  std::vector<std::string> failed;
-  const auto start = std::chrono::steady_clock::now();
-  for (std::size_t i = 0; i < missing.size(); ++i) {
-    const Cell& cell = *missing[i];
-    if (!quiet) {
-      const std::chrono::duration<double> gone = std::chrono::steady_clock::now() - start;
-      const std::string left =
-          i == 0 ? ""
-                 : ", about " +
-                       format_duration(gone.count() / double(i) * double(missing.size() - i)) +
-                       " left";
-      std::cerr << "run " << i + 1 << " of " << missing.size() << left << ": " << cell.id()
-                << std::endl;
-    }
-    std::string why_not;
-    if (!try_cell(cell, quiet, why_not)) {
-      failed.push_back(cell.id() + ": " + why_not);
-      std::cerr << "hoof: " << failed.back() << "\n";
-      continue;
-    }
-    write_seal(cell);
-    after(cell);
+  write_manifest(folder(), all);
+  const std::vector<PlannedRun> missing = look();
+  CampaignEnd end;
+  if (!engine.slurm) {
+    const LocalEngine local{engine.jobs_at_once(cores), engine.quiet};
+    end.failed = local.run(store_, missing, [&](const std::string&) { after(); });
+    return end;
   }
-  return failed;
+  SlurmEngine slurm(engine.cluster);
+  SlurmState state;
+  if (engine.cluster.wait) {
+    std::size_t left = missing.size();
+    state = slurm.wait(store_, [&] {
+      std::vector<PlannedRun> now = look();
+      if (now.size() < left) after();
+      left = now.size();
+      return now;
+    });
+  } else {
+    state = slurm.reconcile(store_, missing);
+  }
+  end.failed = state.failed;
+  end.queued = state.queued + state.outside;
+  return end;
 }
 
-Outcomes Campaign::outcomes() const {
+Outcomes Campaign::outcomes(const std::string& variation) const {
   Outcomes outcomes;
   for (const Cell& cell : cells_) {
-    if (!done(cell)) continue;
-    const nlohmann::json j = read_json(place(cell) / "result.json");
-    Outcome o;
-    if (cell.traction) {
-      o.fx_peak_N = j.at("fx_peak_N"), o.fz_at_fx_peak_N = j.at("fz_at_fx_peak_N");
-      o.coefficient = j.at("traction_coefficient");
-    } else {
-      o.sinkage_mm = 1e3 * j.at("max_depth_m").get<double>();
-    }
-    outcomes[cell.condition()][cell.bed] = o;
+    if (cell.variation != variation || !done(cell)) continue;
+    const std::string id = cell.id();
+    if (read_.count(id) == 0) read_[id] = read_outcome(cell.traction, store_.place(id));
+    outcomes[cell.condition()][cell.bed] = read_[id];
   }
   return outcomes;
 }
@@ -204,13 +93,22 @@ Outcomes Campaign::outcomes() const {
 std::vector<std::pair<std::string, std::string>> Campaign::geometry_hashes() const {
   std::vector<std::pair<std::string, std::string>> hashes;
   for (const Cell& cell : cells_) {
+    if (!cell.variation.empty()) continue;
     const bool known = std::any_of(hashes.begin(), hashes.end(),
                                    [&](const auto& hash) { return hash.first == cell.foot; });
     if (known) continue;
-    hashes.emplace_back(cell.foot,
-                        geometry_hash(read_run_settings(cell.kind(), overrides(cell)).tree));
+    const PlannedRun& run = planned(cell);
+    hashes.emplace_back(cell.foot, geometry_hash(read_run_settings(run.kind, run.settings).tree));
   }
   return hashes;
+}
+
+std::vector<std::string> Campaign::codes() const {
+  std::set<std::string> codes;
+  for (const Cell& cell : cells_) {
+    if (done(cell)) codes.insert(store_.code(cell.id()));
+  }
+  return {codes.begin(), codes.end()};
 }
 
 }  // namespace hoof::tools

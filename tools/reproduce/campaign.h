@@ -3,59 +3,70 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
-#include "sim/config/settings.h"
 #include "tools/reproduce/cell.h"
-#include "tools/reproduce/comparison.h"
+#include "tools/reproduce/local_engine.h"
+#include "tools/reproduce/outcome.h"
+#include "tools/reproduce/run_store.h"
+#include "tools/reproduce/slurm_engine.h"
 #include "tools/run/folder_lock.h"
 
 namespace hoof::tools {
 
-/// SHA-256 of what decides a run's result: every setting but the number of threads.
-std::string settings_hash(const sim::Settings& settings);
-/// The same of a foot's shape and mass alone.
-std::string geometry_hash(const sim::Settings& settings);
+/// Who makes the runs.
+struct Engine {
+  bool slurm = false;
+  SlurmSettings cluster;
+  std::optional<int> jobs;     // at once on this machine; nothing: as many as threads leave cores
+  std::optional<int> threads;  // of each run's sand solver; nothing: what jobs leave
+  bool quiet = false;
 
-/// DIR/cells/ID is a run's folder, DIR/cells/ID.json the hashes of its settings and result.
+  /// With `cores` to be had: the cores over the threads of each run, at least 1.
+  int jobs_at_once(int cores) const;
+  int threads_each(int cores) const;
+};
+
+/// What a call left to do.
+struct CampaignEnd {
+  std::vector<std::string> failed;  // with the reason
+  std::size_t queued = 0;           // with Slurm
+};
+
+/// The cells of a plan in a folder, locked while this lives.
 class Campaign {
  public:
   /// @param settings "dotted.key=value" for every run
   /// @throws UserError where another process works in the folder
-  Campaign(std::filesystem::path folder, std::vector<Cell> cells,
+  Campaign(const std::filesystem::path& folder, std::vector<Cell> cells,
            std::vector<std::string> settings);
 
-  /// Runs that are there, whole and of these settings. One that is whole and of others is an error:
-  /// UserError names it and the first key that differs.
-  bool done(const Cell& cell) const;
+  bool done(const Cell& cell) const { return store_.done(planned(cell)); }
 
-  /// Runs what is missing, in order; a run that was cut off is finished. `after` is told of each
-  /// cell once it is done. Cells that could not be finished are left out and returned.
+  /// Makes what is missing. `after` is told of each cell that this call saw done.
   /// @throws Interrupted after Ctrl-C; the same call goes on from there
-  std::vector<std::string> run(bool quiet, const std::function<void(const Cell&)>& after);
+  CampaignEnd run(const Engine& engine, const std::function<void()>& after);
 
-  Outcomes outcomes() const;
+  /// Of the cells without a variation, or of one; what was read once is kept.
+  Outcomes outcomes(const std::string& variation = "") const;
   /// By foot.
   std::vector<std::pair<std::string, std::string>> geometry_hashes() const;
+  /// Versions of the programs that made the finished runs.
+  std::vector<std::string> codes() const;
 
   const std::vector<Cell>& cells() const { return cells_; }
-  const std::filesystem::path& folder() const { return folder_; }
+  const RunStore& store() const { return store_; }
+  const std::filesystem::path& folder() const { return store_.folder(); }
+  const PlannedRun& planned(const Cell& cell) const { return planned_.at(cell.id()); }
 
  private:
-  std::filesystem::path place(const Cell& cell) const { return folder_ / "cells" / cell.id(); }
-  std::filesystem::path seal(const Cell& cell) const {
-    return folder_ / "cells" / (cell.id() + ".json");
-  }
-  std::vector<std::string> overrides(const Cell& cell) const;
-  void write_seal(const Cell& cell) const;
-  bool can_be_resumed(const Cell& cell) const;
-  bool try_cell(const Cell& cell, bool quiet, std::string& why_not) const;
-
-  std::filesystem::path folder_;
   std::vector<Cell> cells_;
-  std::vector<std::string> settings_;
+  RunStore store_;
   FolderLock lock_;
+  std::map<std::string, PlannedRun> planned_;
+  mutable std::map<std::string, Outcome> read_;
 };
 
 }  // namespace hoof::tools

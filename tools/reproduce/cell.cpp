@@ -1,6 +1,8 @@
 #include "tools/reproduce/cell.h"
 
 #include <algorithm>
+#include <regex>
+#include <stdexcept>
 
 #include "tools/run/csv_writer.h"
 
@@ -28,7 +30,35 @@ Cell traction(const std::string& foot, int toe_deg, double frequency_Hz) {
   return cell;
 }
 
+/// Ratios of the feet at two loads, the effect of speed at one, that of 30 degrees; of traction the
+/// short steps, and the long ones (two thirds of all work) of the two feet that the spines tell.
+std::vector<Cell> night_conditions(Part part) {
+  switch (part) {
+    case Part::kLoad:
+      return {sinkage(kSpined, 0, kLight_kg, kSlow_m_s),
+              sinkage(kPlain, 0, kLight_kg, kSlow_m_s),
+              sinkage(kTraditional, 0, kLight_kg, kSlow_m_s),
+              sinkage(kSpined, 0, kMiddle_kg, kSlow_m_s),
+              sinkage(kPlain, 0, kMiddle_kg, kSlow_m_s),
+              sinkage(kTraditional, 0, kMiddle_kg, kSlow_m_s),
+              sinkage(kSpined, 0, kMiddle_kg, kFast_m_s),
+              sinkage(kPlain, 0, kMiddle_kg, kFast_m_s),
+              sinkage(kTraditional, 0, kMiddle_kg, kFast_m_s)};
+    case Part::kOpening:
+      return {sinkage(kSpined, 0, kHeavy_kg, kSlow_m_s),
+              sinkage(kSpined, 30, kHeavy_kg, kSlow_m_s)};
+    case Part::kTraction:
+      return {traction(kSpined, 0, kFast_Hz), traction(kPlain, 0, kFast_Hz),
+              traction(kTraditional, 0, kFast_Hz), traction(kSpined, 0, kSlow_Hz),
+              traction(kPlain, 0, kSlow_Hz)};
+    case Part::kTractionOpening:
+      return {};
+  }
+  return {};
+}
+
 std::vector<Cell> conditions(Part part, Design design) {
+  if (design == Design::kNight) return night_conditions(part);
   const bool full = design == Design::kFull;
   const std::vector<double> all_kg = {10, 20, 30, 40, 50, 60};
   std::vector<Cell> cells;
@@ -87,7 +117,28 @@ std::vector<std::string> Cell::overrides() const {
     settings.push_back("experiment.load_kg=" + format_number(load_kg));
     settings.push_back("experiment.speed_m_s=" + format_number(speed_m_s));
   }
+  settings.insert(settings.end(), changes.begin(), changes.end());
   return settings;
+}
+
+Cell cell_of(const std::string& condition) {
+  static const std::regex kForm(
+      "(sinkage|traction)-(bionic|bionic-plain|traditional)(?:-toe([0-9]+))?"
+      "-(?:([0-9.]+)kg-([0-9.]+)m_s|([0-9.]+)Hz)");
+  std::smatch part;
+  if (!std::regex_match(condition, part, kForm)) {
+    throw std::invalid_argument(condition + ": names no sinkage and no traction run");
+  }
+  Cell cell;
+  cell.traction = part[1] == "traction";
+  cell.foot = part[2];
+  if (part[3].matched) cell.toe_deg = std::stoi(part[3]);
+  if (part[4].matched) cell.load_kg = std::stod(part[4]), cell.speed_m_s = std::stod(part[5]);
+  if (part[6].matched) cell.frequency_Hz = std::stod(part[6]);
+  if (cell.condition() != condition) {
+    throw std::invalid_argument(condition + ": is written " + cell.condition());
+  }
+  return cell;
 }
 
 const std::vector<std::pair<std::string, Part>>& part_names() {
@@ -96,6 +147,12 @@ const std::vector<std::pair<std::string, Part>>& part_names() {
       {"opening", Part::kOpening},
       {"traction", Part::kTraction},
       {"traction-opening", Part::kTractionOpening}};
+  return names;
+}
+
+const std::vector<std::pair<std::string, Design>>& design_names() {
+  static const std::vector<std::pair<std::string, Design>> names = {
+      {"night", Design::kNight}, {"stated", Design::kStated}, {"full", Design::kFull}};
   return names;
 }
 

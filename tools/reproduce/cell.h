@@ -10,21 +10,28 @@ namespace hoof::tools {
 /// A sinkage or a traction run on one bed.
 struct Cell {
   bool traction = false;
-  std::string foot;         // as of --foot
-  int toe_deg = 0;          // per side; 0 of a foot without toes
-  double load_kg = 0;       // of a sinkage
-  double speed_m_s = 0;     // of a sinkage, at first contact
-  double frequency_Hz = 0;  // of a traction
-  int bed = 1;              // the seed of its preparation
+  std::string foot;                  // as of --foot
+  int toe_deg = 0;                   // per side; 0 of a foot without toes
+  double load_kg = 0;                // of a sinkage
+  double speed_m_s = 0;              // of a sinkage, at first contact
+  double frequency_Hz = 0;           // of a traction
+  int bed = 1;                       // the seed of its preparation
+  std::string variation;             // what was changed beside, in a word; empty: nothing
+  std::vector<std::string> changes;  // "dotted.key=value" of that
 
   std::string kind() const { return traction ? "traction" : "sinkage"; }
   /// All but the bed, in a word that names a folder: "sinkage-bionic-toe30-10kg-0.1m_s".
   std::string condition() const;
-  /// "sinkage-bionic-toe30-10kg-0.1m_s-bed1"
-  std::string id() const { return condition() + "-bed" + std::to_string(bed); }
+  /// "sinkage-bionic-toe30-10kg-0.1m_s-bed1", "sinkage-bionic-toe30-10kg-0.1m_s-long-spines-bed1"
+  std::string id() const {
+    return condition() + (variation.empty() ? "" : "-" + variation) + "-bed" + std::to_string(bed);
+  }
   /// "dotted.key=value", what the run is beside the defaults of its experiment.
   std::vector<std::string> overrides() const;
 };
+
+/// The cell of such a condition(). @throws std::invalid_argument where it is none
+Cell cell_of(const std::string& condition);
 
 /// What of the paper is reproduced.
 enum class Part {
@@ -38,9 +45,13 @@ enum class Part {
 const std::vector<std::pair<std::string, Part>>& part_names();
 
 enum class Design {
-  kNight,  // the conditions that the paper states numbers of
-  kFull    // every load from 10 to 60 kg and every opening from 0 to 40 degrees, at all loads
+  kNight,   // what bands are of, in a night of two cores with the grains of `bench`
+  kStated,  // the conditions that the paper states numbers of
+  kFull     // every load from 10 to 60 kg and every opening from 0 to 40 degrees, at all loads
 };
+
+/// By the names of the command line: night, stated, full.
+const std::vector<std::pair<std::string, Design>>& design_names();
 
 /// All cells, each once, bed after bed: whenever a campaign stops, the beds that are through are
 /// complete pairs.

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <functional>
+#include <map>
 
 #include "tools/reproduce/paper.h"
 #include "tools/run/csv_writer.h"
@@ -32,6 +34,12 @@ std::string at(const std::string& foot, const std::string& load, const std::stri
   return "sinkage-" + foot + "-" + load + "-" + speed + "m_s";
 }
 
+std::string rounded(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
 const std::string kSpined = "bionic-toe0", kPlain = "bionic-plain-toe0", kSole = "traditional";
 
 class Table {
@@ -39,6 +47,17 @@ class Table {
   explicit Table(const Outcomes& outcomes) : outcomes_(outcomes) {}
 
   std::vector<Comparison> rows;
+
+  /// With the reason found for one that is outside: what the beds of its runs cannot tell.
+  void push(Comparison row) {
+    if (row.judgement() == Judgement::kOutside) {
+      for (const auto& [claim, text] : refused_) {
+        row.reason += (row.reason.empty() ? "the bed cannot tell: " : "; ") + text;
+      }
+    }
+    refused_.clear();
+    rows.push_back(std::move(row));
+  }
 
   const std::map<int, Outcome>* of(const std::string& condition) const {
     const auto found = outcomes_.find(condition);
@@ -65,7 +84,9 @@ class Table {
         if (!runs || run == runs->end()) break;
         all.push_back(run->second);
       }
-      if (all.size() == conditions.size()) values.push_back(value(all));
+      if (all.size() != conditions.size()) continue;
+      values.push_back(value(all));
+      for (const Outcome& run : all) refuse(run);
     }
     const Sample sample = sample_of(values);
     if (sample.n == 0) return {};
@@ -81,18 +102,27 @@ class Table {
   }
 
  private:
+  /// One of each kind: beds differ in their numbers.
+  void refuse(const Outcome& run) const {
+    for (const std::string& claim : run.refused) {
+      // Of one bed alone; here are several.
+      if (claim.find("one bed preparation") != std::string::npos) continue;
+      refused_.emplace(claim.substr(0, claim.find(" is ")), claim);
+    }
+  }
+
   const Outcomes& outcomes_;
+  mutable std::map<std::string, std::string> refused_;  // of the runs since the last push()
 };
 
 void sinkage_ratios(Table& table) {
   for (const char* load : {"10kg", "40kg"}) {
     for (const char* speed : {"0.1", "0.4"}) {
       const std::string spined = at(kSpined, load, speed), sole = at(kSole, load, speed);
-      table.rows.push_back(
-          {std::string("sinkage, spined over traditional, ") + load + ", " + speed + " m/s", "1",
-           paper_sinkage_mm(spined) / paper_sinkage_mm(sole), 0.25, 0.50, Standing::kInput,
-           table.ratio(spined, sole, sinkage),
-           "the soles' areas were chosen by the paper's stiffness ratio"});
+      table.push({std::string("sinkage, spined over traditional, ") + load + ", " + speed + " m/s",
+                  "1", paper_sinkage_mm(spined) / paper_sinkage_mm(sole), 0.25, 0.50,
+                  Standing::kInput, table.ratio(spined, sole, sinkage),
+                  "the soles' areas were chosen by the paper's stiffness ratio"});
     }
   }
   for (const char* load : {"10kg", "40kg"}) {
@@ -110,7 +140,7 @@ void sinkage_ratios(Table& table) {
         row.note =
             "below 1 in " + std::to_string(below) + " of " + std::to_string(row.ours->n) + " beds";
       }
-      table.rows.push_back(row);
+      table.push(row);
     }
   }
 }
@@ -123,12 +153,11 @@ void exponents(Table& table) {
     const auto exponent = [](double less, double more) {
       return more > less && less > 0 ? std::log(4.0) / std::log(more / less) : NAN;
     };
-    table.rows.push_back({std::string("exponent of load over sinkage, ") + name, "1",
-                          exponent(paper_sinkage_mm(light), paper_sinkage_mm(heavy)), 0.9, 1.3,
-                          Standing::kPrediction,
-                          table.over_beds({light, heavy}, [&](const auto& o) {
-                            return exponent(o[0].sinkage_mm, o[1].sinkage_mm);
-                          })});
+    table.push({std::string("exponent of load over sinkage, ") + name, "1",
+                exponent(paper_sinkage_mm(light), paper_sinkage_mm(heavy)), 0.9, 1.3,
+                Standing::kPrediction, table.over_beds({light, heavy}, [&](const auto& o) {
+                  return exponent(o[0].sinkage_mm, o[1].sinkage_mm);
+                })});
   }
 }
 
@@ -137,9 +166,9 @@ void speeds(Table& table) {
        {std::pair{kSole, "traditional"}, {kPlain, "plain"}, {kSpined, "spined"}}) {
     for (const char* load : {"10kg", "40kg"}) {
       const std::string fast = at(foot, load, "0.4"), slow = at(foot, load, "0.1");
-      table.rows.push_back({std::string("sinkage at 0.4 over 0.1 m/s, ") + name + ", " + load, "1",
-                            paper_sinkage_mm(fast) / paper_sinkage_mm(slow), 1.0, 1.6,
-                            Standing::kPrediction, table.ratio(fast, slow, sinkage)});
+      table.push({std::string("sinkage at 0.4 over 0.1 m/s, ") + name + ", " + load, "1",
+                  paper_sinkage_mm(fast) / paper_sinkage_mm(slow), 1.0, 1.6, Standing::kPrediction,
+                  table.ratio(fast, slow, sinkage)});
     }
   }
 }
@@ -148,12 +177,12 @@ void openings(Table& table) {
   for (const char* speed : {"0.1", "0.4"}) {
     const std::string shut = at("bionic-toe0", "60kg", speed);
     const std::string open = at("bionic-toe30", "60kg", speed);
-    table.rows.push_back(
-        {std::string("less sinkage by 30 degrees, 60 kg, ") + speed + " m/s", "1",
-         1 - paper_sinkage_mm(open) / paper_sinkage_mm(shut), 0.05, 0.20, Standing::kPrediction,
-         table.over_beds({shut, open}, [](const std::vector<Outcome>& o) {
-           return o[0].sinkage_mm > 0 ? 1 - o[1].sinkage_mm / o[0].sinkage_mm : NAN;
-         })});
+    table.push({std::string("less sinkage by 30 degrees, 60 kg, ") + speed + " m/s", "1",
+                1 - paper_sinkage_mm(open) / paper_sinkage_mm(shut), 0.05, 0.20,
+                Standing::kPrediction,
+                table.over_beds({shut, open}, [](const std::vector<Outcome>& o) {
+                  return o[0].sinkage_mm > 0 ? 1 - o[1].sinkage_mm / o[0].sinkage_mm : NAN;
+                })});
   }
 }
 
@@ -181,20 +210,56 @@ void traction_ratios(Table& table) {
   for (const Pair& pair : pairs) {
     for (const std::string& step : steps) {
       const std::string above = named(pair.above, step), below = named(pair.below, step);
-      table.rows.push_back({std::string(pair.name) + ", " + step, "1",
-                            paper_traction(above).*pair.paper / (paper_traction(below).*pair.paper),
-                            pair.low, pair.high,
-                            pair.high > 0 ? Standing::kPrediction : Standing::kShown,
-                            table.ratio(above, below, pair.value)});
+      table.push({std::string(pair.name) + ", " + step, "1",
+                  paper_traction(above).*pair.paper / (paper_traction(below).*pair.paper), pair.low,
+                  pair.high, pair.high > 0 ? Standing::kPrediction : Standing::kShown,
+                  table.ratio(above, below, pair.value)});
     }
   }
   for (const auto& [foot, name] :
        {std::pair{kSpined, "spined"}, {kPlain, "plain"}, {kSole, "traditional"}}) {
     const std::string fast = named(foot, "1.12Hz"), slow = named(foot, "0.45Hz");
-    table.rows.push_back(
-        {std::string("Fz at 1.12 over 0.45 Hz, ") + name, "1",
-         paper_traction(fast).fz_at_fx_peak_N / paper_traction(slow).fz_at_fx_peak_N, 1.2, 2.1,
-         Standing::kPrediction, table.ratio(fast, slow, fz)});
+    table.push({std::string("Fz at 1.12 over 0.45 Hz, ") + name, "1",
+                paper_traction(fast).fz_at_fx_peak_N / paper_traction(slow).fz_at_fx_peak_N, 1.2,
+                2.1, Standing::kPrediction, table.ratio(fast, slow, fz)});
+  }
+}
+
+/// Of the paper's account of the forces over a stance, which gives no times.
+void timing(Table& table) {
+  for (const char* step : {"0.45Hz", "1.12Hz"}) {
+    const std::string spined = "traction-" + kSpined + "-" + step;
+    const std::string plain = "traction-" + kPlain + "-" + step;
+    Comparison earlier = {
+        std::string("Fx peaks earlier with spines than without, share of beds, ") + step,
+        "1",
+        1,
+        0.8,
+        1,
+        Standing::kPrediction,
+        table.over_beds({spined, plain}, [](const std::vector<Outcome>& o) {
+          return o[0].fx_peak_s < o[1].fx_peak_s ? 1.0 : 0.0;
+        })};
+    const auto lead_ms = table.over_beds({spined, plain}, [](const std::vector<Outcome>& o) {
+      return 1e3 * (o[1].fx_peak_s - o[0].fx_peak_s);
+    });
+    if (lead_ms) earlier.note = "by " + rounded(lead_ms->mean) + " ms in the mean";
+    table.push(earlier);
+    Comparison small = {
+        std::string("spined, Fx has a small peak before its main one, share of "
+                    "beds, ") +
+            step,
+        "1",
+        1,
+        0.8,
+        1,
+        Standing::kPrediction,
+        table.plain(spined, [](const Outcome& o) { return o.early_ratio > 0 ? 1.0 : 0.0; })};
+    const auto size = table.plain(
+        spined, [](const Outcome& o) { return o.early_ratio > 0 ? o.early_ratio : NAN; });
+    small.note = "one that stands out by 5 % of the main one";
+    if (size) small.note += "; it has " + rounded(100 * size->mean) + " % of it in the mean";
+    table.push(small);
   }
 }
 
@@ -203,9 +268,9 @@ void traction_levels(Table& table) {
     for (const auto& [foot, name, low, high] :
          {std::tuple{kSpined, "spined", 0.55, 0.75}, {kPlain, "plain", 0.35, 0.50}}) {
       const std::string condition = "traction-" + foot + "-" + step;
-      table.rows.push_back({std::string("traction coefficient, ") + name + ", " + step, "1",
-                            paper_traction(condition).coefficient, low, high, Standing::kPrediction,
-                            table.plain(condition, coefficient)});
+      table.push({std::string("traction coefficient, ") + name + ", " + step, "1",
+                  paper_traction(condition).coefficient, low, high, Standing::kPrediction,
+                  table.plain(condition, coefficient)});
     }
   }
   // Nearly flat: the range over the openings, by the mean.
@@ -217,18 +282,17 @@ void traction_levels(Table& table) {
       const double value = paper_traction(conditions.back()).coefficient;
       least = std::min(least, value), most = std::max(most, value), sum += value;
     }
-    table.rows.push_back(
-        {std::string("traction coefficient, range over openings by its mean, ") + step, "1",
-         (most - least) / (sum / 5), 0, 0.10, Standing::kPrediction,
-         table.over_beds(conditions, [](const std::vector<Outcome>& o) {
-           double low = 1e9, high = 0, total = 0;
-           for (const Outcome& run : o) {
-             low = std::min(low, run.coefficient);
-             high = std::max(high, run.coefficient);
-             total += run.coefficient;
-           }
-           return total > 0 ? (high - low) * double(o.size()) / total : NAN;
-         })});
+    table.push({std::string("traction coefficient, range over openings by its mean, ") + step, "1",
+                (most - least) / (sum / 5), 0, 0.10, Standing::kPrediction,
+                table.over_beds(conditions, [](const std::vector<Outcome>& o) {
+                  double low = 1e9, high = 0, total = 0;
+                  for (const Outcome& run : o) {
+                    low = std::min(low, run.coefficient);
+                    high = std::max(high, run.coefficient);
+                    total += run.coefficient;
+                  }
+                  return total > 0 ? (high - low) * double(o.size()) / total : NAN;
+                })});
   }
 }
 
@@ -245,16 +309,14 @@ void absolutes(Table& table) {
                     table.plain(row.condition, sinkage)};
     if (!row.in_words) c.note = "the paper's from a percentage";
     if (chosen_by) c.note = "the sole's width was chosen by it";
-    table.rows.push_back(c);
+    table.push(c);
   }
   for (const PaperTraction& row : paper_tractions()) {
     if (row.fx_peak_N <= 0) continue;
-    table.rows.push_back({row.condition + ", Fx peak", "N", row.fx_peak_N, 0.5 * row.fx_peak_N,
-                          2 * row.fx_peak_N, Standing::kPrediction,
-                          table.plain(row.condition, fx)});
-    table.rows.push_back({row.condition + ", Fz then", "N", row.fz_at_fx_peak_N,
-                          0.5 * row.fz_at_fx_peak_N, 2 * row.fz_at_fx_peak_N, Standing::kPrediction,
-                          table.plain(row.condition, fz)});
+    table.push({row.condition + ", Fx peak", "N", row.fx_peak_N, 0.5 * row.fx_peak_N,
+                2 * row.fx_peak_N, Standing::kPrediction, table.plain(row.condition, fx)});
+    table.push({row.condition + ", Fz then", "N", row.fz_at_fx_peak_N, 0.5 * row.fz_at_fx_peak_N,
+                2 * row.fz_at_fx_peak_N, Standing::kPrediction, table.plain(row.condition, fz)});
   }
 }
 
@@ -299,6 +361,7 @@ std::vector<Comparison> compare_with_paper(const Outcomes& outcomes) {
   speeds(table);
   openings(table);
   traction_ratios(table);
+  timing(table);
   traction_levels(table);
   absolutes(table);
   return table.rows;

@@ -1,24 +1,14 @@
 // The paper's numbers beside ours: each target, the band it is accepted in, and what the runs gave.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "tools/reproduce/outcome.h"
 #include "tools/study/statistics.h"
 
 namespace hoof::tools {
-
-/// What one run gave. Of the other kind: zero.
-struct Outcome {
-  double sinkage_mm = 0;  // largest displacement since first contact, spines count
-  double fx_peak_N = 0, fz_at_fx_peak_N = 0;  // at that instant
-  double coefficient = 0;
-};
-
-/// By condition, then by bed.
-using Outcomes = std::map<std::string, std::map<int, Outcome>>;
 
 enum class Standing {
   kPrediction,  // nothing of ours was set on it
@@ -36,6 +26,9 @@ struct Comparison {
   Standing standing = Standing::kPrediction;
   std::optional<Sample> ours = {};  // over beds; nothing: not run
   std::string note = {};            // what the reader must know
+  /// Of one that is outside, why, as far as it was found: what the runs' own beds say that they
+  /// cannot tell. Empty: not found out.
+  std::string reason = {};
 
   Judgement judgement() const;
 };

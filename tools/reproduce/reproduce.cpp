@@ -4,9 +4,13 @@
 #include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "tools/reproduce/campaign.h"
 #include "tools/reproduce/comparison.h"
+#include "tools/reproduce/cost.h"
+#include "tools/reproduce/figures.h"
+#include "tools/reproduce/paper_numbers.h"
 #include "tools/reproduce/summary_page.h"
 #include "tools/run/errors.h"
 #include "tools/run/output_file.h"
@@ -16,11 +20,29 @@
 
 namespace hoof::tools {
 namespace fs = std::filesystem;
-namespace {
 
 std::string design_name(Design design) {
-  return design == Design::kNight ? "night" : "full";
+  for (const auto& [name, known] : design_names()) {
+    if (known == design) return name;
+  }
+  return "";
 }
+
+fs::path ReproduceOptions::folder() const {
+  if (!out.empty()) return out;
+  const bool other_steps = design == Design::kNight && scale != "demo";
+  return fs::path("runs") / ("reproduce-" + scale + (other_steps ? "-night" : ""));
+}
+
+std::vector<std::string> ReproduceOptions::run_settings() const {
+  std::vector<std::string> all = {"use.bed=" + scale, "experiment.terrain=" + terrain};
+  // 5.6 us, 27 % of the Rayleigh time, for 2.8: that of the studies in RESOLUTION.md.
+  if (design == Design::kNight && scale != "demo") all.push_back("bed.steps_per_ms=180");
+  all.insert(all.end(), settings.begin(), settings.end());
+  return all;
+}
+
+namespace {
 
 /// Units differ from row to row and stand in a column of their own.
 std::string figure(double value) {
@@ -41,14 +63,15 @@ Table table_of(const std::vector<Comparison>& rows) {
                {"beds_count"},
                {"result_name"},
                {"standing_name"},
-               {"note_name"}});
+               {"note_name"},
+               {"reason_name"}});
   for (const Comparison& row : rows) {
     const bool band = row.low != 0 || row.high != 0;
     table.row({row.name, row.unit, figure(row.paper), band ? figure(row.low) : "",
                band ? figure(row.high) : "", row.ours ? figure(row.ours->mean) : "",
                row.ours ? figure(row.ours->deviation) : "",
                std::int64_t(row.ours ? row.ours->n : 0), to_string(row.judgement()),
-               to_string(row.standing), row.note});
+               to_string(row.standing), row.note, row.reason});
   }
   return table;
 }
@@ -63,7 +86,7 @@ void write_summary(const Campaign& campaign, const ReproduceOptions& options,
   // CSV takes no commas within a text.
   std::vector<Comparison> plain = rows;
   for (Comparison& row : plain) {
-    for (std::string* text : {&row.name, &row.note}) {
+    for (std::string* text : {&row.name, &row.note, &row.reason}) {
       for (char& c : *text) c = c == ',' ? ';' : c;
     }
   }
@@ -87,45 +110,82 @@ void write_summary(const Campaign& campaign, const ReproduceOptions& options,
     }
     r["result"] = to_string(row.judgement()), r["standing"] = to_string(row.standing);
     if (!row.note.empty()) r["note"] = row.note;
+    if (!row.reason.empty()) r["reason"] = row.reason;
     j["targets"].push_back(r);
   }
+  j["runs_made_by"] = campaign.codes();
   j["version"] = version_json();
-  const auto replace = [&](const std::string& name, const std::string& text) {
-    const fs::path partial = folder / (name + ".partial");
+  const auto replace = [&](const fs::path& name, const std::string& text) {
+    const fs::path partial = folder / (name.string() + ".partial");
     write_file(partial, text);
     fs::rename(partial, folder / name);
   };
   replace("summary.json", result_json_text(j));
-  replace("report.html", summary_page(campaign, options, rows));
+  const std::vector<Figure> figures = draw_figures(campaign.outcomes(), options.parts);
+  fs::create_directories(folder / "figures");
+  for (const Figure& figure : figures) {
+    replace(fs::path("figures") / (figure.name + ".svg"), figure.svg);
+  }
+  replace("report.html", summary_page(campaign, options, rows, figures));
 }
 
-void print_plan(const Campaign& campaign) {
-  std::size_t done = 0;
+std::string design_text(const ReproduceOptions& options) {
+  const std::string beds = "; " + std::to_string(options.beds) +
+                           " beds of each, bed after bed, so that whatever stops it leaves whole "
+                           "pairs on the beds that are through";
+  switch (options.design) {
+    case Design::kNight:
+      return "design night: what the bands are of (three feet at 10 and 40 kg, speed at 40 kg, 30 "
+             "degrees at 60 kg, both steps with and without spines), steps of 5.6 us on fine "
+             "grains" +
+             beds;
+    case Design::kStated:
+      return "design stated: the conditions that the paper states numbers of, as only they can "
+             "come out inside or outside" +
+             beds;
+    case Design::kFull:
+      return "design full, for a cluster: every load from 10 to 60 kg, every opening at every "
+             "load" +
+             beds;
+  }
+  return "";
+}
+
+void print_plan(const Campaign& campaign, const ReproduceOptions& options) {
+  std::vector<PlannedRun> all, missing;
   for (const Cell& cell : campaign.cells()) {
     const bool there = campaign.done(cell);
-    done += there ? 1 : 0;
+    all.push_back(campaign.planned(cell));
+    if (!there) missing.push_back(all.back());
     std::printf("%-8s %s\n", there ? "done" : "missing", cell.id().c_str());
   }
-  std::printf("%zu runs, %zu done\n", campaign.cells().size(), done);
+  std::printf("%s\n", design_text(options).c_str());
+  std::printf("%zu runs, %zu done\n", campaign.cells().size(),
+              campaign.cells().size() - missing.size());
+  const CostModel model(campaign.store(), all);
+  const int cores = int(std::max(1U, std::thread::hardware_concurrency()));
+  std::fputs(cost_text(model, missing, options.engine.jobs_at_once(cores),
+                       options.engine.threads_each(cores))
+                 .c_str(),
+             stdout);
 }
 
-}  // namespace
+TableOptions table_options(const ReproduceOptions& options) {
+  TableOptions tables;
+  tables.campaign = options.folder();
+  tables.heaps = options.beds;
+  tables.grains = options.scale == "demo" ? 1000 : 3000;
+  tables.threads = int(std::max(1U, std::thread::hardware_concurrency()));
+  tables.quiet = options.quiet;
+  return tables;
+}
 
-void reproduce(const ReproduceOptions& options) {
-  std::set<Part> parts = options.parts;
-  if (parts.empty()) {
-    for (const auto& [name, part] : part_names()) parts.insert(part);
-  }
-  std::vector<std::string> settings = {"use.bed=" + options.scale,
-                                       "experiment.terrain=" + options.terrain};
-  if (options.threads) settings.push_back("experiment.threads=" + std::to_string(*options.threads));
-  settings.insert(settings.end(), options.settings.begin(), options.settings.end());
-  const fs::path out =
-      options.out.empty() ? fs::path("runs") / ("reproduce-" + options.scale) : options.out;
-  Campaign campaign(out, plan_cells(parts, options.design, options.beds, options.first_bed),
-                    std::move(settings));
+void run_campaign(const ReproduceOptions& options) {
+  Campaign campaign(options.folder(),
+                    plan_cells(options.parts, options.design, options.beds, options.first_bed),
+                    options.run_settings());
   if (options.plan_only) {
-    print_plan(campaign);
+    print_plan(campaign, options);
     return;
   }
   const auto summary = [&] {
@@ -133,8 +193,7 @@ void reproduce(const ReproduceOptions& options) {
     write_summary(campaign, options, rows);
     return rows;
   };
-  const std::vector<std::string> failed =
-      campaign.run(options.quiet, [&](const Cell&) { summary(); });
+  const CampaignEnd end = campaign.run(options.engine, [&] { summary(); });
   std::vector<Comparison> rows = summary();
   const std::size_t all = rows.size();
   std::erase_if(rows, [](const Comparison& row) { return !row.ours; });
@@ -143,11 +202,33 @@ void reproduce(const ReproduceOptions& options) {
   for (const auto& [foot, hash] : campaign.geometry_hashes()) {
     std::cout << "geometry of " << foot << ": SHA-256 " << hash << "\n";
   }
+  if (end.queued > 0) {
+    std::cout << end.queued << " runs are in the cluster's queue or under way; the same command "
+              << "looks again, hoof campaign status " << campaign.folder().string()
+              << " tells how far they are\n";
+  }
   std::cout << (campaign.folder() / "report.html").string() << std::endl;
-  if (!failed.empty()) {
-    throw CannotFinish(std::to_string(failed.size()) + " of " +
+  if (!end.failed.empty()) {
+    throw CannotFinish(std::to_string(end.failed.size()) + " of " +
                        std::to_string(campaign.cells().size()) +
-                       " runs could not be finished, the first: " + failed.front());
+                       " runs could not be finished, the first: " + end.failed.front());
+  }
+}
+
+}  // namespace
+
+void reproduce(const ReproduceOptions& options) {
+  for (const std::string& figure : options.figures) std::cout << about_figure(figure) << "\n";
+  for (const std::string& table : options.tables) {
+    if (options.plan_only) {
+      std::cout << table_plan(table, table_options(options)) << std::endl;
+    } else {
+      reproduce_table(table, table_options(options));
+    }
+  }
+  if (!options.parts.empty()) run_campaign(options);
+  if (options.parts.empty() && options.tables.empty()) {
+    throw UserError("no figure of these can be drawn by its number");
   }
 }
 

@@ -1,4 +1,5 @@
-// hoof reproduce: the paper's sinkage and traction, run by run, its numbers beside ours.
+// hoof reproduce: the paper's sinkage and traction, run by run, and its tables; its numbers beside
+// ours.
 #pragma once
 
 #include <filesystem>
@@ -7,26 +8,35 @@
 #include <string>
 #include <vector>
 
+#include "tools/reproduce/campaign.h"
 #include "tools/reproduce/cell.h"
 
 namespace hoof::tools {
 
 struct ReproduceOptions {
-  std::set<Part> parts;  // empty: all
-  Design design = Design::kNight;
+  std::set<Part> parts;
+  std::vector<std::string> tables;   // "table2"
+  std::vector<std::string> figures;  // "fig5": by their numbers
+  Design design = Design::kStated;
   std::string scale = "demo";   // preset of the bed
   std::string terrain = "dem";  // or "rft", "rigid": quick looks that are no sand
   int beds = 5;
   int first_bed = 1;
-  std::optional<int> threads;
+  Engine engine;
   std::vector<std::string> settings;  // "dotted.key=value" for every run
-  std::filesystem::path out;          // empty: runs/reproduce-SCALE
+  std::filesystem::path out;          // empty: folder()
   bool plan_only = false;             // says what is there and what is missing, runs nothing
   bool quiet = false;
+
+  std::filesystem::path folder() const;
+  /// Those of every run, in words of the settings.
+  std::vector<std::string> run_settings() const;
 };
 
-/// Runs what is missing; writes summary.csv, summary.json and report.html after each run, so that a
-/// campaign under way can be looked at; prints the table of targets.
+std::string design_name(Design design);
+
+/// Runs what is missing; writes summary.csv, summary.json, figures/ and report.html after each run,
+/// so that a campaign under way can be looked at; prints the table of targets.
 /// @throws UserError, Interrupted; CannotFinish where runs failed, named, once the rest is done
 void reproduce(const ReproduceOptions& options);
 

@@ -6,6 +6,7 @@
 
 #include "tools/reproduce/campaign.h"
 #include "tools/reproduce/comparison.h"
+#include "tools/reproduce/figures.h"
 #include "tools/reproduce/reproduce.h"
 
 namespace hoof::tools {
@@ -13,6 +14,6 @@ namespace hoof::tools {
 /// One self-contained file: what was run, how many targets came out inside, figures with the
 /// paper's numbers beside ours, and the table.
 std::string summary_page(const Campaign& campaign, const ReproduceOptions& options,
-                         const std::vector<Comparison>& rows);
+                         const std::vector<Comparison>& rows, const std::vector<Figure>& figures);
 
 }  // namespace hoof::tools

@@ -27,11 +27,13 @@ StopRequest::StopRequest() {
   requested_signal = 0;
   set_handler(SIGINT, remember_signal);
   set_handler(SIGTERM, remember_signal);
+  set_handler(SIGUSR1, remember_signal);
 }
 
 StopRequest::~StopRequest() {
   set_handler(SIGINT, SIG_DFL);
   set_handler(SIGTERM, SIG_DFL);
+  set_handler(SIGUSR1, SIG_DFL);
 }
 
 bool StopRequest::requested() const {

@@ -2,8 +2,9 @@
 
 namespace hoof::tools {
 
-/// While one of these lives, the first SIGINT (Ctrl-C) or SIGTERM only asks the program to stop;
-/// a second one ends it at once. One at a time; loops ask requested() once per step.
+/// While one of these lives, the first SIGINT (Ctrl-C), SIGTERM or SIGUSR1 (what batch systems send
+/// ahead of a time limit) only asks the program to stop; a second one ends it at once. One at a
+/// time; loops ask requested() once per step.
 class StopRequest {
  public:
   StopRequest();

@@ -34,21 +34,30 @@ int sealed(const fs::path& out) {
   return count;
 }
 
+std::string a_sealed(const fs::path& out) {
+  for (const auto& entry : fs::directory_iterator(out / "cells")) {
+    if (entry.path().extension() == ".json") return entry.path().stem();
+  }
+  return "";
+}
+
 constexpr int kRuns = 6;  // three feet, two step frequencies
 
 }  // namespace
 
 TEST_CASE("reproduce: killed at any moment the same command goes on, to the same bytes") {
+  const std::string jobs = GENERATE("1", "2");
+  INFO("--jobs " << jobs);
   const ScratchFolder scratch;
   const fs::path whole = scratch.path() / "whole", cut = scratch.path() / "cut";
-  const Outcome undisturbed = run_program(campaign(whole));
+  const Outcome undisturbed = run_program(campaign(whole, {"--jobs", "1"}));
   REQUIRE(undisturbed.status == 0);
   CHECK(sealed(whole) == kRuns);
   CHECK_THAT(undisturbed.output,
              Catch::Contains("more targets were not run") && Catch::Contains("geometry of"));
 
   for (const int after : {1, 3}) {
-    const Program program(campaign(cut));
+    const Program program(campaign(cut, {"--jobs", jobs}));
     const auto give_up = std::chrono::steady_clock::now() + std::chrono::minutes(2);
     while (sealed(cut) < after && std::chrono::steady_clock::now() < give_up) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -57,10 +66,12 @@ TEST_CASE("reproduce: killed at any moment the same command goes on, to the same
     program.wait();
     REQUIRE(sealed(cut) >= after);
   }
-  const auto first = cut / "cells" / "traction-bionic-toe0-0.45Hz-bed1" / "result.json";
+  // With two at once the order in which they end is nobody's.
+  const std::string id = jobs == "1" ? "traction-bionic-toe0-0.45Hz-bed1" : a_sealed(cut);
+  const auto first = cut / "cells" / id / "result.json";
   REQUIRE(fs::exists(first));
   const auto written = fs::last_write_time(first);
-  CHECK(run_program(campaign(cut)).status == 0);
+  CHECK(run_program(campaign(cut, {"--jobs", jobs})).status == 0);
   CHECK(fs::last_write_time(first) == written);  // what was done is not done again
   for (const char* name : {"summary.json", "summary.csv"}) {
     CHECK(read_file(cut / name) == read_file(whole / name));
@@ -75,8 +86,7 @@ TEST_CASE("reproduce: killed at any moment the same command goes on, to the same
   SECTION("a result that was changed is run again") {
     tools::write_file(first, "{\"traction_coefficient\": 9}\n");
     CHECK(run_program(campaign(cut)).status == 0);
-    CHECK(read_file(first) ==
-          read_file(whole / "cells" / "traction-bionic-toe0-0.45Hz-bed1" / "result.json"));
+    CHECK(read_file(first) == read_file(whole / "cells" / id / "result.json"));
   }
   SECTION("a run that was not sealed when the program was killed is sealed, not run again") {
     const fs::path seal = first.parent_path().string() + ".json";
@@ -98,6 +108,77 @@ TEST_CASE("reproduce: killed at any moment the same command goes on, to the same
     const Outcome more = run_program(campaign(cut, {"--plan"}, "2"));
     CHECK_THAT(more.output, Catch::Contains("12 runs, 6 done"));
   }
+}
+
+TEST_CASE("reproduce: told to stop, runs at once stop too, and nothing is left half-written") {
+  const ScratchFolder scratch;
+  const fs::path out = scratch.path() / "stopped";
+  const Program program(campaign(out, {"--jobs", "3"}, "3"));
+  while (sealed(out) < 1) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  program.send(SIGTERM);
+  const Outcome stopped = program.wait();
+  CHECK(stopped.status == 128 + SIGTERM);
+  CHECK_THAT(stopped.errors, Catch::Contains("the same command goes on from there"));
+  const int kept = sealed(out);
+  CHECK(kept < 3 * kRuns);
+  for (const auto& entry : fs::directory_iterator(out / "cells")) {
+    CHECK(entry.path().filename().string().front() != '.');
+  }
+  // Nobody works there any more.
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  CHECK(sealed(out) == kept);
+  const Outcome status = run_program({"campaign", "status", out.string()});
+  CHECK_THAT(status.output,
+             Catch::Contains(std::to_string(kept) + " of 18 runs done, 0 under way"));
+}
+
+TEST_CASE("claims: runs what is missing over variations, shares the base with reproduce") {
+  const ScratchFolder scratch;
+  const fs::path out = scratch.path() / "claims";
+  REQUIRE(run_program(campaign(out, {}, "2")).status == 0);
+  const auto first = out / "cells" / "traction-bionic-toe0-0.45Hz-bed1" / "result.json";
+  const auto written = fs::last_write_time(first);
+  const std::vector<std::string> claims = {
+      "claims", "spines-raise-T", "--terrain", "rigid", "--beds",    "2",
+      "--vary", "long-spines",    "--quiet",   "--out", out.string()};
+  std::vector<std::string> plan = claims;
+  plan.push_back("--plan");
+  // Two feet, two steps, two beds; with long spines only the spined foot is another.
+  CHECK_THAT(run_program(plan).output, Catch::Contains("12 runs, 8 done"));
+  const Outcome judged = run_program(claims);
+  CHECK(judged.status == 0);
+  CHECK(fs::last_write_time(first) == written);
+  const auto j = nlohmann::json::parse(read_file(out / "claims.json"));
+  REQUIRE(j["claims"].size() == 1);
+  const auto& claim = j["claims"][0];
+  REQUIRE(claim["under"].size() == 2);
+  CHECK(claim["under"][1]["variation"] == "long-spines");
+  for (const auto& under : claim["under"]) {
+    for (const auto& contrast : under["contrasts"]) {
+      CHECK(contrast["beds"] == std::vector<int>{1, 2});
+      CHECK(contrast["runs"].size() == 4);
+      for (const std::string id : contrast["runs"]) CHECK(fs::exists(out / "cells" / id));
+      // A hard floor is the same on every bed.
+      CHECK(contrast["interval95"][0] == contrast["interval95"][1]);
+    }
+  }
+  for (const char* name : {"claims.csv", "claims.html"}) CHECK(fs::exists(out / name));
+  // The campaign of the base does not see the variation's runs.
+  const std::string before = read_file(out / "summary.json");
+  REQUIRE(run_program(campaign(out, {}, "2")).status == 0);
+  CHECK(read_file(out / "summary.json") == before);
+}
+
+TEST_CASE("reproduce: a figure that cannot be drawn by its number is one line and an error") {
+  const Outcome figure = run_program({"reproduce", "fig25"});
+  CHECK(figure.status == 2);
+  CHECK_THAT(figure.output, Catch::Contains("fig25: what it shows is not known here"));
+  CHECK(run_program({"reproduce", "fig9"}).status == 2);
+  const ScratchFolder scratch;
+  const Outcome table =
+      run_program({"reproduce", "table5", "--quiet", "--out", scratch.path().string()});
+  CHECK(table.status == 0);
+  CHECK(fs::exists(scratch.path() / "table5" / "report.html"));
 }
 
 TEST_CASE("reproduce: one campaign, one process") {

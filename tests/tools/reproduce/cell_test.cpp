@@ -21,7 +21,7 @@ std::set<Part> all_parts() {
 }  // namespace
 
 TEST_CASE("plan: each run once, bed after bed, and every number of the paper has one") {
-  for (const Design design : {Design::kNight, Design::kFull}) {
+  for (const Design design : {Design::kStated, Design::kFull}) {
     const std::vector<Cell> cells = plan_cells(all_parts(), design, 3, 7);
     std::set<std::string> ids, conditions;
     for (const Cell& cell : cells) {
@@ -38,13 +38,26 @@ TEST_CASE("plan: each run once, bed after bed, and every number of the paper has
   }
   // 3 feet x 2 loads x 2 speeds, 5 openings x 2 x 2 less two that are there, 3 feet x 2 steps,
   // 5 openings x 2 less two.
-  CHECK(plan_cells(all_parts(), Design::kNight, 1, 1).size() == 12 + 18 + 6 + 8);
+  CHECK(plan_cells(all_parts(), Design::kStated, 1, 1).size() == 12 + 18 + 6 + 8);
   // 3 x 6 x 2, 5 x 6 x 2 less the closed ones that are there.
   CHECK(plan_cells(all_parts(), Design::kFull, 1, 1).size() == 36 + 48 + 6 + 8);
 }
 
+TEST_CASE("plan: the night's conditions are some of the stated, and both feet of each ratio") {
+  std::set<std::string> stated, night;
+  for (const Cell& c : plan_cells(all_parts(), Design::kStated, 1, 1)) stated.insert(c.id());
+  for (const Cell& c : plan_cells(all_parts(), Design::kNight, 1, 1)) night.insert(c.id());
+  CHECK(night.size() == 9 + 2 + 5);
+  for (const std::string& id : night) CHECK(stated.count(id) == 1);
+  for (std::string id : night) {
+    const auto at = id.find("bionic-toe0");
+    if (at == std::string::npos || id.find("60kg") != std::string::npos) continue;
+    CHECK(night.count(id.replace(at, 11, "bionic-plain-toe0")) == 1);
+  }
+}
+
 TEST_CASE("plan: a cell is what its name says") {
-  const auto cells = plan_cells({Part::kOpening, Part::kTraction}, Design::kNight, 1, 4);
+  const auto cells = plan_cells({Part::kOpening, Part::kTraction}, Design::kStated, 1, 4);
   const auto of = [&](const std::string& id) {
     const auto found =
         std::find_if(cells.begin(), cells.end(), [&](const Cell& cell) { return cell.id() == id; });

@@ -21,6 +21,9 @@ Outcomes like_paper(const std::vector<double>& beds = {1}) {
       Outcome& o = outcomes[row.condition][bed];
       o.fx_peak_N = beds[i] * row.fx_peak_N, o.fz_at_fx_peak_N = beds[i] * row.fz_at_fx_peak_N;
       o.coefficient = row.coefficient;
+      // It gives no times, but says which is earlier, and that one has an early small peak.
+      const bool spined = row.condition.find("bionic-toe") != std::string::npos;
+      o.fx_peak_s = spined ? 0.3 : 0.4, o.early_ratio = spined ? 0.2 : 0;
     }
   }
   return outcomes;
@@ -117,6 +120,44 @@ TEST_CASE("ratios are of two runs on one bed: beds that differ do not scatter th
   CHECK(named(fewer, "sinkage, spined over traditional, 40kg, 0.4 m/s").ours->n == 1);
   CHECK(named(fewer, "sinkage, spined over traditional, 40kg, 0.4 m/s").ours->mean ==
         Approx(ratio.paper));
+}
+
+TEST_CASE("timing: a spined foot that peaks later, or without a small peak before, is outside") {
+  const std::string earlier = "Fx peaks earlier with spines than without, share of beds, 0.45Hz";
+  const std::string small =
+      "spined, Fx has a small peak before its main one, share of beds, 0.45Hz";
+  Outcomes outcomes = like_paper({1, 1, 1, 1, 1});
+  auto& spined = outcomes["traction-bionic-toe0-0.45Hz"];
+  spined[2].fx_peak_s = 0.5, spined[2].early_ratio = 0;
+  CHECK(named(compare_with_paper(outcomes), earlier).judgement() == Judgement::kInside);  // 4 of 5
+  CHECK(named(compare_with_paper(outcomes), small).judgement() == Judgement::kInside);
+  spined[3].fx_peak_s = 0.4, spined[3].early_ratio = 0;
+  CHECK(named(compare_with_paper(outcomes), earlier).ours->mean == Approx(0.6));
+  CHECK(named(compare_with_paper(outcomes), earlier).judgement() == Judgement::kOutside);
+  CHECK(named(compare_with_paper(outcomes), small).judgement() == Judgement::kOutside);
+  CHECK_THAT(named(compare_with_paper(outcomes), earlier).note, Catch::Contains("40 ms"));
+}
+
+TEST_CASE("a target that is outside carries what its own beds say that they cannot tell") {
+  Outcomes outcomes = like_paper({1, 1});
+  const std::string forty = "sinkage, spined over plain, 40kg, 0.1 m/s";
+  for (const int bed : {1, 2}) {
+    Outcome& run = outcomes["sinkage-bionic-toe0-40kg-0.1m_s"][bed];
+    run.refused = {
+        "effect of the spines: spine pitch / d50 is 1." + std::to_string(bed) + ", needs 4",
+        "differences under 15 %: one bed preparation shows no scatter"};
+  }
+  CHECK(named(compare_with_paper(outcomes), forty).reason.empty());  // inside: nothing to explain
+  for (const int bed : {1, 2}) outcomes["sinkage-bionic-toe0-40kg-0.1m_s"][bed].sinkage_mm = 20;
+  const auto rows = compare_with_paper(outcomes);
+  CHECK(named(rows, forty).reason ==
+        "the bed cannot tell: effect of the spines: spine pitch / d50 is 1.1, needs 4");
+  // Others that are outside with it and have no such run do not get it.
+  outcomes["sinkage-traditional-10kg-0.4m_s"][1].sinkage_mm = 100;
+  outcomes["sinkage-traditional-10kg-0.4m_s"][2].sinkage_mm = 100;
+  const auto more = compare_with_paper(outcomes);
+  CHECK(named(more, "sinkage-traditional-10kg-0.4m_s").judgement() == Judgement::kOutside);
+  CHECK(named(more, "sinkage-traditional-10kg-0.4m_s").reason.empty());
 }
 
 TEST_CASE("targets that the geometry was chosen by are no predictions") {

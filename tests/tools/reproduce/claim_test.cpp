@@ -1,0 +1,197 @@
+#include "tools/reproduce/claim.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+#include <set>
+
+#include "tools/calibrate/paper_tables.h"
+#include "tools/experiment/run_settings.h"
+#include "tools/reproduce/cell.h"
+#include "tools/reproduce/paper.h"
+#include "tools/reproduce/run_store.h"
+#include "tools/reproduce/variation.h"
+
+using namespace hoof::tools;
+
+namespace {
+
+const Claim& claim(const std::string& name) {
+  for (const Claim& c : paper_claims()) {
+    if (c.name == name) return c;
+  }
+  throw std::runtime_error("no claim " + name);
+}
+
+/// Sinkages at 60 kg, 0.1 m/s by opening, the same on every bed but for each bed's own factor and
+/// some scatter.
+Outcomes openings(const std::vector<double>& mm, double scatter, unsigned seed = 1, int beds = 5) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> noise(0, scatter);
+  Outcomes outcomes;
+  for (int bed = 1; bed <= beds; ++bed) {
+    const double softness = 0.5 + 0.4 * bed;
+    for (int i = 0; i < 5; ++i) {
+      const std::string condition = "sinkage-bionic-toe" + std::to_string(10 * i) + "-60kg-0.1m_s";
+      outcomes[condition][bed].sinkage_mm = softness * mm[std::size_t(i)] * (1 + noise(random));
+    }
+  }
+  return outcomes;
+}
+
+}  // namespace
+
+TEST_CASE("claims: thirty degrees is first, names are unique, every condition is a cell") {
+  CHECK(paper_claims().front().name == "30-best");
+  std::set<std::string> names;
+  for (const Claim& c : paper_claims()) {
+    CHECK(names.insert(c.name).second);
+    CHECK_FALSE(c.contrasts.empty());
+    for (const Contrast& contrast : c.contrasts) {
+      INFO(contrast.name);
+      for (const std::string& condition : contrast.conditions) {
+        CHECK(cell_of(condition).condition() == condition);
+      }
+      // The paper's own numbers lie on the side that it claims.
+      if (!std::isfinite(contrast.paper)) continue;
+      CHECK((contrast.below ? contrast.paper < contrast.bound : contrast.paper > contrast.bound));
+    }
+  }
+  CHECK_THROWS_AS(cell_of("sinkage-bionic-toe30-10kg"), std::invalid_argument);
+  CHECK_THROWS_AS(cell_of("sinkage-bionic-toe030-10kg-0.1m_s"), std::invalid_argument);
+}
+
+TEST_CASE("a claim holds where each interval excludes the bound, paired on the bed") {
+  const Claim& best = claim("30-best");
+  const std::vector<double> paper = {13.0, 11.73, 11.5, 11.0, 11.65};
+  CHECK(find(best, openings(paper, 0.002)) == Finding::kHolds);
+  // Beds that differ fourfold do not matter: each run is compared on its own bed.
+  CHECK(weigh(best.contrasts[0], openings(paper, 0))->sample.mean == Approx(11.0 / 13.0));
+  CHECK(weigh(best.contrasts[0], openings(paper, 0))->sample.confidence == Approx(0).margin(1e-9));
+  // Effect the other way, effect lost in scatter, one better opening of four.
+  CHECK(find(best, openings({11, 12, 12, 13, 12}, 0.002)) == Finding::kFails);
+  CHECK(find(best, openings(paper, 0.5)) == Finding::kFails);
+  CHECK(find(best, openings({13.0, 11.73, 10.5, 11.0, 11.65}, 0.002)) == Finding::kFails);
+  // Not all openings, or one bed: nothing is said, unless what is there fails already.
+  Outcomes some = openings(paper, 0.002);
+  some.erase("sinkage-bionic-toe20-60kg-0.1m_s");
+  CHECK(find(best, some) == Finding::kNotRun);
+  CHECK(find(best, openings(paper, 0.002, 1, 1)) == Finding::kNotRun);
+  some = openings({11, 12, 12, 13, 12}, 0.002);
+  some.erase("sinkage-bionic-toe20-60kg-0.1m_s");
+  CHECK(find(best, some) == Finding::kFails);
+  CHECK(find(best, {}) == Finding::kNotRun);
+}
+
+TEST_CASE("claims upward and by a bound that is not one") {
+  const Claim& raise = claim("spines-raise-T");
+  Outcomes outcomes;
+  for (int bed = 1; bed <= 5; ++bed) {
+    for (const std::string step : {"0.45Hz", "1.12Hz"}) {
+      outcomes["traction-bionic-toe0-" + step][bed].coefficient = 0.6 + 0.01 * bed;
+      outcomes["traction-bionic-plain-toe0-" + step][bed].coefficient = 0.4 + 0.005 * bed;
+      for (const int deg : {10, 20, 30, 40}) {
+        outcomes["traction-bionic-toe" + std::to_string(deg) + "-" + step][bed].coefficient =
+            (0.6 + 0.01 * bed) * (1 + 0.002 * deg);
+      }
+    }
+  }
+  CHECK(find(raise, outcomes) == Finding::kHolds);
+  // 1 to 1.08 by a mean of 1.04: 7.7 %.
+  CHECK(weigh(claim("T-flat").contrasts[0], outcomes)->sample.mean == Approx(0.08 / 1.04));
+  CHECK(find(claim("T-flat"), outcomes) == Finding::kHolds);
+  CHECK(find(claim("T-best-at-40"), outcomes) == Finding::kHolds);
+  for (auto& [bed, run] : outcomes["traction-bionic-toe40-1.12Hz"]) run.coefficient *= 1.05;
+  CHECK(find(claim("T-flat"), outcomes) == Finding::kFails);
+  for (auto& [bed, run] : outcomes["traction-bionic-toe0-0.45Hz"]) run.coefficient = 0.3;
+  CHECK(find(raise, outcomes) == Finding::kFails);
+}
+
+TEST_CASE("the interval misses a true null in one of twenty") {
+  // Two openings that are alike: the claim that one sinks less must hold in 2.5 % of the campaigns.
+  const Contrast& contrast = claim("30-best").contrasts[0];
+  int held = 0;
+  constexpr int kCampaigns = 4000;
+  for (int seed = 0; seed < kCampaigns; ++seed) {
+    const auto evidence = weigh(contrast, openings({12, 12, 12, 12, 12}, 0.03, unsigned(seed)));
+    held += holds(contrast, *evidence) ? 1 : 0;
+  }
+  // Four standard deviations of a count of 100.
+  CHECK(held > 60);
+  CHECK(held < 140);
+}
+
+TEST_CASE("verdicts") {
+  using F = Finding;
+  struct Row {
+    F base;
+    std::vector<F> varied;
+    Verdict verdict;
+  };
+  const Row rows[] = {{F::kHolds, {F::kHolds, F::kHolds}, Verdict::kSupported},
+                      {F::kHolds, {F::kHolds, F::kFails}, Verdict::kFragile},
+                      {F::kHolds, {F::kNotRun, F::kFails}, Verdict::kFragile},
+                      {F::kHolds, {F::kHolds, F::kNotRun}, Verdict::kOpen},
+                      {F::kHolds, {}, Verdict::kOpen},
+                      {F::kFails, {F::kHolds}, Verdict::kUnsupported},
+                      {F::kFails, {}, Verdict::kUnsupported},
+                      {F::kNotRun, {F::kHolds}, Verdict::kOpen},
+                      {F::kNotRun, {F::kFails}, Verdict::kOpen}};
+  for (const Row& row : rows) CHECK(judge(row.base, row.varied) == row.verdict);
+}
+
+TEST_CASE("variations: three of geometry, two of grain size, three points of the valley") {
+  std::set<std::string> hashes, names;
+  const Cell base = cell_of("sinkage-bionic-toe30-60kg-0.1m_s");
+  hashes.insert(settings_hash(read_run_settings(base.kind(), base.overrides()).tree));
+  const auto variations = claim_variations({});
+  for (const Variation& v : variations) {
+    INFO(v.name);
+    CHECK(names.insert(v.name).second);
+    for (const std::string condition :
+         {"sinkage-bionic-toe30-60kg-0.1m_s", "traction-bionic-plain-toe0-0.45Hz",
+          "traction-traditional-1.12Hz"}) {
+      const Cell cell = varied(cell_of(condition), v);
+      const RunSettings run = read_run_settings(cell.kind(), cell.overrides());  // is a run
+      // Without a change it is the base's run and shares its folder.
+      CHECK(cell.changes.empty() == cell.variation.empty());
+      CHECK((cell.id() == cell_of(condition).id()) == cell.changes.empty());
+      if (condition == base.condition()) CHECK(hashes.insert(settings_hash(run.tree)).second);
+    }
+  }
+  CHECK(std::vector<std::string>(names.begin(), names.end()) == [] {
+    auto all = variation_names();
+    std::sort(all.begin(), all.end());
+    return all;
+  }());
+  CHECK(varied(cell_of("traction-traditional-1.12Hz"), variations[0]).changes.empty());
+  CHECK_FALSE(varied(cell_of("traction-traditional-1.12Hz"), variations[2]).changes.empty());
+  for (const char* bed : {"demo", "bench", "paper"}) {
+    const std::vector<std::string> settings = {std::string("use.bed=") + bed};
+    const auto plain = read_run_settings("sinkage", settings).bed;
+    for (const Variation& v : claim_variations(settings)) {
+      std::vector<std::string> all = settings;
+      all.insert(all.end(), v.of_all.begin(), v.of_all.end());
+      const auto changed = read_run_settings("sinkage", all).bed;
+      // A step of no larger share of the smallest grain's Rayleigh time, which goes with its size.
+      CHECK(changed.step_s() / changed.grain_scale <= plain.step_s() / plain.grain_scale * 1.001);
+      CHECK(changed.settling_step_s() / changed.grain_scale <=
+            plain.settling_step_s() / plain.grain_scale * 1.001);
+      CHECK(changed.steps_per_ms % 40 == 0);
+    }
+  }
+}
+
+TEST_CASE("the valley's points have the paper's angle of repose, and are far from each other") {
+  for (const ValleyPoint& p : valley_points()) {
+    CHECK(paper_repose_fit_deg(p.restitution, p.rolling_friction, p.static_friction) ==
+          Approx(kPaperReposeMeasured_deg).margin(0.45));  // the fit's own doubt there
+    for (const ValleyPoint& q : valley_points()) {
+      if (&p == &q) continue;
+      CHECK(std::abs(p.restitution - q.restitution) +
+                std::abs(p.static_friction - q.static_friction) >
+            0.25);
+    }
+  }
+}

@@ -1,0 +1,43 @@
+// What a finished run of a campaign gave.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace hoof::tools {
+
+/// Forces on the foot in a stance, means over kStep_s each, the first from first contact on.
+struct ForceTrace {
+  static constexpr double kStep_s = 0.010;
+  std::vector<double> fx_N, fz_N;
+};
+
+/// Of the other kind: zero.
+struct Outcome {
+  double sinkage_mm = 0;  // largest displacement since first contact, spines count
+  double fx_peak_N = 0, fz_at_fx_peak_N = 0;  // at that instant
+  double coefficient = 0;
+  double fx_peak_s = 0;  // since first contact
+  /// The greatest local maximum of Fx before that peak that stands out by kEarly of the peak from
+  /// the valley between the two: its force over the peak's, its time; zero where there is none.
+  double early_ratio = 0, early_s = 0;
+  std::vector<std::string> refused = {};  // what its bed cannot tell, sim/experiments/resolution.h
+  ForceTrace trace = {};
+
+  static constexpr double kEarly = 0.05;
+};
+
+/// By condition, then by bed.
+using Outcomes = std::map<std::string, std::map<int, Outcome>>;
+
+/// @param traction its kind  @param folder of the run, with result.json and samples.csv
+/// @throws UserError where they do not read
+Outcome read_outcome(bool traction, const std::filesystem::path& folder);
+
+/// Fills fx_peak_s and the early peak from the trace.
+void find_timing(Outcome& outcome);
+
+}  // namespace hoof::tools
