@@ -29,6 +29,7 @@ struct RunSettings {
   std::string terrain;  // "dem", "rft" or "rigid"
   std::string bus;      // "in_process", or SocketCAN interfaces
   std::string image;    // the board's, an ELF file; empty: the firmware runs in this process
+  std::string fields = "report";  // "none", "report" or "vtk": what is kept of the sand's insides
   std::uint64_t seed = 0;
   int threads = 1;
 
@@ -51,6 +52,8 @@ struct RunSettings {
   bool concealed = false;
 
   bool on_grains() const { return terrain == "dem"; }
+  /// A real machine's bench sees nothing of them.
+  bool keeps_fields() const { return on_grains() && fields != "none" && !concealed; }
   bool is_sinkage() const { return kind == "sinkage"; }
   double toe_rad() const { return is_sinkage() ? sinkage.toe_rad : traction.toe_rad; }
   std::array<bool, sim::kJointCount> has_drives() const;
