@@ -150,5 +150,5 @@ TEST_CASE("each map has a bar, a unit and a number, and shows the grains that ar
   CHECK(viridis(0) == "#440154");
   CHECK(viridis(1) == "#fde725");
   CHECK(viridis(-3) == "#440154");
-  CHECK(viridis(0.5) == "#23898e");
+  CHECK(viridis(0.5) == "#23908c");
 }
