@@ -52,11 +52,13 @@ void Boundary::set_motion(int mesh, const MeshMotion& motion) {
   meshes_[std::size_t(mesh)].motion = motion;
 }
 
+Boundary::Pose Boundary::pose_at(const MeshMotion& motion, double time_s) {
+  return {motion.p_WB_m + time_s * motion.v_WB_m_s,
+          turned(motion.q_WB, time_s * motion.w_WB_rad_s).toRotationMatrix()};
+}
+
 void Boundary::place_meshes(double time_s) {
-  for (Mesh& m : meshes_) {
-    m.now.origin_m = m.motion.p_WB_m + time_s * m.motion.v_WB_m_s;
-    m.now.R_WB = turned(m.motion.q_WB, time_s * m.motion.w_WB_rad_s).toRotationMatrix();
-  }
+  for (Mesh& m : meshes_) m.now = pose_at(m.motion, time_s);
 }
 
 void Boundary::flush_loads() {
@@ -184,27 +186,32 @@ void Boundary::touch_meshes(const NearGrain& b, Grain& g, Workspace& w) {
   std::uint32_t patch = b.patch_begin;
   while (patch < b.patch_end) {
     Patch& first = patches_[patch];
-    const Mesh& mesh = meshes_[first.mesh];
-    w.spots.clear();
-    for (; patch < b.patch_end && patches_[patch].mesh == first.mesh; ++patch) {
-      const Patch& near = patches_[patch];
-      const Eigen::Vector3d p_B_m =
-          mesh.now.R_WB.transpose() * (eigen(near.p_m) + g.moved_m - mesh.now.origin_m);
-      for (std::uint32_t i = near.facet_begin; i < near.facet_end; ++i) {
-        MeshSpot spot;
-        if (mesh.surface.find_spot(near_facets_[i], p_B_m, g.radius_m, spot)) {
-          w.spots.push_back(spot);
-        }
-      }
-    }
-    if (!w.spots.empty()) {
-      const bool inner = is_inner(w, first.mesh);
-      if (inner) turn_inside_out(w.spots);
-      keep_distinct(w.spots, g.radius_m);
-      touch_spots(b, first, inner, g, w);
-    }
+    const bool inner = find_spots(b, g, meshes_[first.mesh].now, patch, w);
+    if (!w.spots.empty()) touch_spots(b, first, inner, g, w);
     if (settings_.account_energy) end_mesh_contacts(first, g, w);
   }
+}
+
+/// @return whether the grain belongs inside the body
+bool Boundary::find_spots(const NearGrain& b, const Grain& g, const Pose& pose,
+                          std::uint32_t& patch, Workspace& w) const {
+  const std::uint32_t mesh = patches_[patch].mesh;
+  const MeshSurface& surface = meshes_[mesh].surface;
+  w.spots.clear();
+  for (; patch < b.patch_end && patches_[patch].mesh == mesh; ++patch) {
+    const Patch& near = patches_[patch];
+    const Eigen::Vector3d p_B_m =
+        pose.R_WB.transpose() * (eigen(near.p_m) + g.moved_m - pose.origin_m);
+    for (std::uint32_t i = near.facet_begin; i < near.facet_end; ++i) {
+      MeshSpot spot;
+      if (surface.find_spot(near_facets_[i], p_B_m, g.radius_m, spot)) w.spots.push_back(spot);
+    }
+  }
+  if (w.spots.empty()) return false;
+  const bool inner = is_inner(w, mesh);
+  if (inner) turn_inside_out(w.spots);
+  keep_distinct(w.spots, g.radius_m);
+  return inner;
 }
 
 /// Which side of the surface a grain belongs to is settled when contact begins, and lasts as long:
@@ -280,6 +287,59 @@ void Boundary::end_mesh_contacts(const Patch& patch, Grain& g, Workspace& w) con
 }
 
 template <typename Real>
+Boundary::Grain Boundary::grain_of(const GrainRecord<Real>& r, const Domain& domain) {
+  Grain g;
+  g.p_m = domain.position_m(r);
+  g.v_m_s = {double(r.vx), double(r.vy), double(r.vz)};
+  g.w_rad_s = {double(r.wx), double(r.wy), double(r.wz)};
+  g.radius_m = double(r.radius_m);
+  g.mass_kg = double(r.mass_kg);
+  return g;
+}
+
+template <typename Real>
+std::vector<MeshTouch> Boundary::mesh_touches(const GrainRecord<Real>* records,
+                                              const Domain& domain, double time_s) const {
+  std::vector<MeshTouch> touches;
+  Workspace w;
+  for (const NearGrain& b : grains_) {
+    if (b.memory < 0) continue;
+    const GrainRecord<Real>& r = records[b.row];
+    Grain g = grain_of(r, domain);
+    g.dt_s = 0;  // the histories are those of this moment already
+    g.moved_m = domain.moved_m(r, b.listed_at);
+    w.before = memories_[std::size_t(b.memory)];
+    w.taken_over = 0;
+    for (std::uint32_t patch = b.patch_begin; patch < b.patch_end;) {
+      const std::uint32_t mesh = patches_[patch].mesh;
+      const MeshMotion& motion = meshes_[mesh].motion;
+      const Pose pose = pose_at(motion, time_s);
+      find_spots(b, g, pose, patch, w);
+      for (const MeshSpot& spot : w.spots) {
+        const Eigen::Vector3d normal = pose.R_WB * spot.normal, arm_m = pose.R_WB * spot.point_m;
+        const Vec3<double> n = bare(normal);
+        Vec3<double> xi_m{};
+        if (const int i = take_over(w, mesh, n); i >= 0) {
+          xi_m = w.before.contacts[std::size_t(i)].xi_m;
+        }
+        Account unused;
+        const Eigen::Vector3d f_N =
+            eigen(push(g, n, spot.overlap_m, bare(motion.v_WB_m_s + motion.w_WB_rad_s.cross(arm_m)),
+                       xi_m, unused));
+        const Eigen::Vector3d f_normal_N = f_N.dot(normal) * normal;
+        touches.push_back({r.id, mesh, meshes_[mesh].surface.triangle(spot.facet), spot.overlap_m,
+                           pose.origin_m + arm_m, (g.radius_m - spot.overlap_m) * normal,
+                           f_normal_N, f_N - f_normal_N});
+      }
+    }
+  }
+  // Rows lie along a curve through the bed; for others the order is to be plain.
+  std::stable_sort(touches.begin(), touches.end(),
+                   [](const MeshTouch& a, const MeshTouch& b) { return a.grain < b.grain; });
+  return touches;
+}
+
+template <typename Real>
 void Boundary::compute(const GrainRecord<Real>* records, const Domain& domain, double dt_s,
                        std::uint32_t group_begin, std::uint32_t group_end) {
   auto& forces = forces_of<Real>();
@@ -293,12 +353,7 @@ void Boundary::compute(const GrainRecord<Real>* records, const Domain& domain, d
   for (auto b = first_of(group_begin); b != end; ++b) {
     if (end - b > kAhead) __builtin_prefetch(&records[b[kAhead].row]);
     const GrainRecord<Real>& r = records[b->row];
-    Grain g;
-    g.p_m = domain.position_m(r);
-    g.v_m_s = {double(r.vx), double(r.vy), double(r.vz)};
-    g.w_rad_s = {double(r.wx), double(r.wy), double(r.wz)};
-    g.radius_m = double(r.radius_m);
-    g.mass_kg = double(r.mass_kg);
+    Grain g = grain_of(r, domain);
     g.dt_s = dt_s;
     touch_walls(*b, g);
     if (b->memory >= 0) {
@@ -365,6 +420,10 @@ void Boundary::set_wall_history(std::uint32_t row, int wall, const Eigen::Vector
   if (i >= 0) wall_contacts_[std::size_t(i)] = {wall, 1, bare(xi_m)};
 }
 
+template std::vector<MeshTouch> Boundary::mesh_touches<float>(const GrainRecord<float>*,
+                                                              const Domain&, double) const;
+template std::vector<MeshTouch> Boundary::mesh_touches<double>(const GrainRecord<double>*,
+                                                               const Domain&, double) const;
 template void Boundary::compute<float>(const GrainRecord<float>*, const Domain&, double,
                                        std::uint32_t, std::uint32_t);
 template void Boundary::compute<double>(const GrainRecord<double>*, const Domain&, double,

@@ -45,6 +45,18 @@ struct MeshLoad {
   double work_J = 0;
 };
 
+/// One spot where a grain touches a mesh at this moment, as the grain feels it.
+struct MeshTouch {
+  std::uint32_t grain = 0;  // id
+  std::uint32_t mesh = 0;
+  std::uint32_t triangle = 0;  // of the mesh
+  double overlap_m = 0;
+  Eigen::Vector3d p_W_m = Eigen::Vector3d::Zero();       // on the surface
+  Eigen::Vector3d to_grain_m = Eigen::Vector3d::Zero();  // from there to the grain's centre
+  Eigen::Vector3d f_normal_N = Eigen::Vector3d::Zero();
+  Eigen::Vector3d f_tangential_N = Eigen::Vector3d::Zero();
+};
+
 struct BoundarySettings {
   PairLaw<double> law{};  // grain against wall and mesh
   CoulombCap cap = CoulombCap::kTotalNormal;
@@ -98,6 +110,13 @@ class Boundary {
   MeshLoad take_load(int mesh);
   /// Work in the loads of all meshes that were not taken yet, J.
   double pending_work_J() const;
+
+  /// All spots where grains touch meshes, by grain, with the meshes where they are `time_s` after
+  /// the start of the interval: forces by the law from places, speeds and histories as they stand.
+  /// Changes nothing. After a step, with the records that it left.
+  template <typename Real>
+  std::vector<MeshTouch> mesh_touches(const GrainRecord<Real>* records, const Domain& domain,
+                                      double time_s) const;
 
   /// Tangential displacement of a grain on wall w; for saving and loading beds.
   bool wall_history(std::uint32_t row, int wall, Eigen::Vector3d& xi_m) const;
@@ -202,7 +221,13 @@ class Boundary {
   void flush_energies();
 
   // boundary.cpp
+  static Pose pose_at(const MeshMotion& motion, double time_s);
   void place_meshes(double time_s);
+  template <typename Real>
+  static Grain grain_of(const GrainRecord<Real>& r, const Domain& domain);
+  /// The distinct spots of one mesh, whose patches begin at `patch`, which moves behind them.
+  bool find_spots(const NearGrain& b, const Grain& g, const Pose& pose, std::uint32_t& patch,
+                  Workspace& w) const;
   void touch_walls(const NearGrain& b, Grain& g);
   void touch_meshes(const NearGrain& b, Grain& g, Workspace& w);
   void touch_spots(const NearGrain& b, Patch& patch, bool inner, Grain& g, Workspace& w);

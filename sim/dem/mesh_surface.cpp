@@ -30,7 +30,8 @@ MeshSurface::MeshSurface(const TriangleMesh& mesh) {
 }
 
 void MeshSurface::add_facets(const TriangleMesh& mesh) {
-  for (const auto& t : mesh.triangles) {
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const auto& t = mesh.triangles[i];
     const Eigen::Vector3d &a = mesh.vertices_m[std::size_t(t[0])],
                           &b = mesh.vertices_m[std::size_t(t[1])],
                           &c = mesh.vertices_m[std::size_t(t[2])];
@@ -38,6 +39,7 @@ void MeshSurface::add_facets(const TriangleMesh& mesh) {
     if ((b - a).cross(c - a).squaredNorm() == 0) continue;
     facets_.emplace_back(a, b, c);
     corners_.push_back(t);
+    triangles_.push_back(std::uint32_t(i));
   }
   if (facets_.empty()) throw std::invalid_argument("a mesh needs a triangle that has an area");
 }

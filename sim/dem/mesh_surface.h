@@ -25,6 +25,8 @@ class MeshSurface {
   double radius_m() const { return radius_m_; }
   const Eigen::AlignedBox3d& box() const { return box_; }
   std::size_t facet_count() const { return facets_.size(); }
+  /// Which triangle of the mesh a facet is: those without area are none.
+  std::uint32_t triangle(std::uint32_t facet) const { return triangles_[facet]; }
 
   /// False only where no triangle is within reach of p.
   bool maybe_near(const Eigen::Vector3d& p, double reach_m) const;
@@ -51,6 +53,7 @@ class MeshSurface {
 
   std::vector<Facet> facets_;
   std::vector<std::array<std::int32_t, 3>> corners_;  // of the facets, vertex numbers of the mesh
+  std::vector<std::uint32_t> triangles_;              // of the facets, their numbers in the mesh
   std::vector<std::array<Eigen::Vector3d, 6>> part_normals_;  // out of the body, of corners, edges
   bool closed_ = false;
   double radius_m_ = 0;

@@ -88,7 +88,13 @@ MeshLoad SandBed::take_load(int mesh) {
   return load;
 }
 BedState SandBed::state() const {
-  return impl_->state();
+  return impl_->state(nullptr);
+}
+BedState SandBed::state(const Eigen::AlignedBox3d& region_m) const {
+  return impl_->state(&region_m);
+}
+std::vector<MeshTouch> SandBed::mesh_touches() const {
+  return impl_->mesh_touches();
 }
 std::size_t SandBed::grain_count() const {
   return impl_->grain_count();

@@ -101,6 +101,10 @@ class SandBed {
   MeshLoad take_load(int mesh);
 
   BedState state() const;
+  /// Only the grains whose centres lie in the region, and the contacts among these and with walls.
+  BedState state(const Eigen::AlignedBox3d& region_m) const;
+  /// Where grains touch meshes, by grain. After a step.
+  std::vector<MeshTouch> mesh_touches() const;
   std::size_t grain_count() const;
   BedHealth health() const;
   const DemSettings& settings() const;

@@ -96,9 +96,13 @@ void SandBed::ImplOf<Real>::load(const BedState& state) {
 }
 
 template <typename Real>
-std::vector<std::uint32_t> SandBed::ImplOf<Real>::rows_by_id() const {
-  std::vector<std::uint32_t> rows(count);
-  for (std::uint32_t row = 0; row < count; ++row) rows[row] = row;
+std::vector<std::uint32_t> SandBed::ImplOf<Real>::rows_by_id(
+    const Eigen::AlignedBox3d* region_m) const {
+  std::vector<std::uint32_t> rows;
+  rows.reserve(count);
+  for (std::uint32_t row = 0; row < count; ++row) {
+    if (region_m == nullptr || region_m->contains(domain.position_m(now[row]))) rows.push_back(row);
+  }
   std::sort(rows.begin(), rows.end(),
             [&](std::uint32_t a, std::uint32_t b) { return now[a].id < now[b].id; });
   return rows;
@@ -138,10 +142,11 @@ void SandBed::ImplOf<Real>::store_contacts(const std::vector<GrainContact>& cont
 }
 
 template <typename Real>
-BedState SandBed::ImplOf<Real>::state() const {
+BedState SandBed::ImplOf<Real>::state(const Eigen::AlignedBox3d* region_m) const {
   BedState s;
-  s.grains.reserve(count);
-  for (const std::uint32_t row : rows_by_id()) {
+  const std::vector<std::uint32_t> rows = rows_by_id(region_m);
+  s.grains.reserve(rows.size());
+  for (const std::uint32_t row : rows) {
     const Record& r = now[row];
     s.grains.push_back({r.id,
                         double(r.radius_m),
@@ -154,11 +159,12 @@ BedState SandBed::ImplOf<Real>::state() const {
     for (std::uint32_t k = begin; k < begin + list.slot_count()[group]; ++k) {
       if (!(list.touching()[k] >> lane & 1)) continue;
       const EllSlot<Real>& slot = list.slots()[k];
-      const std::uint32_t partner = now[std::size_t(slot.neighbour[lane])].id;
-      if (partner > r.id) {
+      const Record& other = now[std::size_t(slot.neighbour[lane])];
+      const bool is_in = region_m == nullptr || region_m->contains(domain.position_m(other));
+      if (other.id > r.id && is_in) {
         s.contacts.push_back(
             {r.id,
-             partner,
+             other.id,
              {double(slot.xi_x[lane]), double(slot.xi_y[lane]), double(slot.xi_z[lane])}});
       }
     }
@@ -172,6 +178,11 @@ BedState SandBed::ImplOf<Real>::state() const {
               [](const GrainContact& a, const GrainContact& b) { return a.j < b.j; });
   }
   return s;
+}
+
+template <typename Real>
+std::vector<MeshTouch> SandBed::ImplOf<Real>::mesh_touches() const {
+  return boundary.mesh_touches<Real>(now.data(), domain, interval_time_s);
 }
 
 template <typename Real>

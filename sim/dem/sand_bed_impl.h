@@ -16,7 +16,8 @@ struct SandBed::Impl {
   virtual ~Impl() = default;
 
   virtual void load(const BedState& state) = 0;
-  virtual BedState state() const = 0;
+  virtual BedState state(const Eigen::AlignedBox3d* region_m) const = 0;  // null: everywhere
+  virtual std::vector<MeshTouch> mesh_touches() const = 0;
   virtual void step() = 0;
   virtual std::size_t grain_count() const = 0;
   virtual void set_laws() = 0;
@@ -46,7 +47,8 @@ struct SandBed::ImplOf final : SandBed::Impl {
   explicit ImplOf(const DemSettings& s);
 
   void load(const BedState& state) override;
-  BedState state() const override;
+  BedState state(const Eigen::AlignedBox3d* region_m) const override;
+  std::vector<MeshTouch> mesh_touches() const override;
   void step() override;
   std::size_t grain_count() const override { return count; }
   void set_laws() override;
@@ -80,7 +82,7 @@ struct SandBed::ImplOf final : SandBed::Impl {
   Record to_record(const Grain& g) const;
   Record padding() const;
   void store_contacts(const std::vector<GrainContact>& contacts);
-  std::vector<std::uint32_t> rows_by_id() const;
+  std::vector<std::uint32_t> rows_by_id(const Eigen::AlignedBox3d* region_m = nullptr) const;
   double kinetic_energy_J(const Records& records) const;
 
   std::uint32_t count = 0;

@@ -84,9 +84,7 @@ void JournaledTerrain::advance(double interval_s, std::span<const BodyMotion> mo
   ++intervals_;
   time_s_ += interval_s;
   if (replaying() && intervals_ == resume_from_->step) {
-    ground_->restore(resume_from_->payload);
-    resume_from_.reset();
-    note("the ground goes on from its checkpoint");
+    go_on();
     next_checkpoint_s_ = clock_s() + settings_.checkpoint_every_s;
   } else if (is_time()) {
     next_checkpoint_s_ = clock_s() + settings_.checkpoint_every_s;
@@ -109,6 +107,20 @@ void JournaledTerrain::replay(std::span<Wrench> wrenches) {
   work_J_ = answer.work_J;
 }
 
+/// A checkpoint's payload: the ground, what others saw, and the length of that.
+void JournaledTerrain::go_on() {
+  std::string_view bytes = resume_from_->payload;
+  std::uint64_t seen = 0;
+  if (bytes.size() < sizeof seen) throw std::runtime_error("the checkpoint is truncated");
+  ByteReader(bytes.substr(bytes.size() - sizeof seen)).get(seen);
+  bytes.remove_suffix(sizeof seen);
+  if (bytes.size() < seen) throw std::runtime_error("the checkpoint is truncated");
+  ground_->restore(bytes.substr(0, bytes.size() - seen));
+  if (settings_.see_again) settings_.see_again(bytes.substr(bytes.size() - seen));
+  resume_from_.reset();
+  note("the ground goes on from its checkpoint");
+}
+
 bool JournaledTerrain::is_time() const {
   return !replaying() && settings_.checkpoint_every_s > 0 && clock_s() >= next_checkpoint_s_;
 }
@@ -117,7 +129,13 @@ void JournaledTerrain::write_checkpoint() {
   if (intervals_ == 0 || replaying() || last_checkpoint_ == intervals_) return;
   // The journal first: a checkpoint is of no use without all answers before it.
   journal_->save();
-  checkpoints_.write(intervals_, time_s_, ground_->snapshot());
+  std::string payload = ground_->snapshot();
+  const std::string seen = settings_.seen ? settings_.seen() : std::string();
+  ByteWriter length;
+  length.put(std::uint64_t(seen.size()));
+  payload += seen;
+  payload += length.bytes();
+  checkpoints_.write(intervals_, time_s_, payload);
   last_checkpoint_ = intervals_;
 }
 

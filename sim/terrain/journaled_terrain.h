@@ -25,6 +25,10 @@ struct JournalSettings {
   double checkpoint_every_s = 300;
   /// Something the user should know; may be empty.
   std::function<void(const std::string&)> note;
+  /// What others saw in the ground before a checkpoint, they cannot see again: their bytes are kept
+  /// with it and given back when the ground goes on from it. Both may be empty.
+  std::function<std::string()> seen;
+  std::function<void(std::string_view)> see_again;
 
   /// @throws std::invalid_argument naming the first broken rule
   void validate() const;
@@ -61,6 +65,7 @@ class JournaledTerrain final : public Terrain {
  private:
   void open();
   void replay(std::span<Wrench> wrenches);
+  void go_on();
   bool is_time() const;
   void note(const std::string& text) const;
 

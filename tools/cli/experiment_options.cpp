@@ -35,6 +35,7 @@ constexpr std::string_view kToeKey = "experiment.toe_deg";
 constexpr std::string_view kBedKey = "use.bed";
 constexpr std::string_view kTerrainKey = "experiment.terrain";
 constexpr std::string_view kSoilKey = "use.rft_terrain";
+constexpr std::string_view kFieldsKey = "experiment.fields";
 constexpr std::string_view kDriveKey = "experiment.drive";
 constexpr std::string_view kBusKey = "experiment.bus";
 constexpr std::string_view kFirmwareKey = "experiment.firmware";
@@ -152,6 +153,7 @@ std::string examples(Experiment experiment) {
            "  hoof sinkage\n"
            "  hoof sinkage --foot traditional --load 40 --speed 0.1 --bed bench --seed 3\n"
            "  hoof sinkage --foot bionic --toe 30 --load 400N --out runs/toe-30 --force\n"
+           "  hoof sinkage --fields vtk                         ParaView: RUN/fields/fields.pvd\n"
            "  hoof sinkage --terrain rigid --faults tools/faults/example.toml\n"
            "  hoof sinkage --terrain rft --soil soil.toml\n"
            "  hoof sinkage --terrain rft --effects answer/improved.toml\n"
@@ -292,6 +294,11 @@ void add_experiment_options(CLI::App& command, ExperimentOptions& options, Exper
       ->type_name("NAME|FILE")
       ->check(name_or_file({"demo"}, ".toml"));
   command
+      .add_option("--fields", options.fields,
+                  "Of the sand under the foot: nothing, numbers and maps, or ParaView files too")
+      ->type_name("none|report|vtk")
+      ->check(one_of({"none", "report", "vtk"}));
+  command
       .add_option("--firmware", options.firmware,
                   "The loop in this process, or the board's image: in our emulator, or in QEMU")
       ->type_name("host|emulated|qemu")
@@ -330,6 +337,7 @@ std::vector<std::string> settings_overrides(const ExperimentOptions& options) {
   add_text(kBedKey, options.bed);
   add_text(kTerrainKey, options.terrain);
   add_text(kSoilKey, options.soil);
+  add_text(kFieldsKey, options.fields);
   add_text(kDriveKey, options.drive);
   add_text(kBusKey, options.bus.bus);
   add_text(kFirmwareKey, options.firmware);

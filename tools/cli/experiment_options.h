@@ -28,6 +28,7 @@ struct ExperimentOptions {
   std::string bed;                  ///< preset demo, bench, paper, or a file
   std::string terrain;              ///< dem, rft or rigid
   std::string soil;                 ///< of rft: preset or file
+  std::string fields;               ///< none, report or vtk
   std::string drive;                ///< firmware or prescribed
   BusOptions bus;                   ///< not given: firmware and plant in this process
   std::string firmware;             ///< host, emulated or qemu

@@ -11,6 +11,7 @@
 #include "tools/experiment/bench.h"
 #include "tools/experiment/recorder.h"
 #include "tools/experiment/resume_folder.h"
+#include "tools/experiment/run_fields.h"
 #include "tools/experiment/section_view.h"
 #include "tools/experiment/summary.h"
 #include "tools/report/report.h"
@@ -134,6 +135,7 @@ class Run {
     journal_ = dynamic_cast<sim::JournaledTerrain*>(&experiment_->plant().terrain());
     const double built_s = seconds_since(start);
     const sim::SandBed* sand = find_sand(experiment_->plant().terrain());
+    if (run_.keeps_fields()) fields_.emplace(run_, *experiment_);
     sim::BedState untouched;
     if (sand != nullptr) untouched = sand->state();
     recorder_ =
@@ -143,11 +145,12 @@ class Run {
     recorder_->close();
     nlohmann::ordered_json result = summarise(run_, *experiment_, session, *recorder_);
     if (const auto bus = bus_->report(); !bus.is_null()) result["bus"] = bus;
+    if (fields_) fields_->write(folder_->working_path(), result);
     write_result_json(folder_->file("result.json"), result);
     if (sand != nullptr && !run_.concealed) {
       write_file(folder_->file("section.svg"),
                  draw_section(untouched, sand->state(), experiment_->plant().rig(),
-                              run_.bed.d50_m(), cut_y_m()));
+                              run_.bed.d50_m(), cut_y_m(run_)));
     }
     // Apart from the results, which are the same every time: how long it took here and now.
     write_result_json(folder_->file("timing.json"), {{"build_s", built_s},
@@ -156,12 +159,6 @@ class Run {
     write_report(folder_->working_path());
     if (session.interrupted) interrupt("the results up to that moment");
     if (!output_.silent) print(result);
-  }
-
-  /// Through a row of spines, where there are spines.
-  double cut_y_m() const {
-    const sim::FootGeometry& g = run_.foot.geometry;
-    return g.has_spines ? g.spines.middle_row_offset_m : 0;
   }
 
   void note(const std::string& text) {
@@ -174,8 +171,14 @@ class Run {
 
   std::optional<sim::JournalSettings> journal_settings() {
     if (!resume_) return {};
-    return sim::JournalSettings{resume_->path(), resume_->key(), output_.checkpoint_every_s,
-                                [this](const std::string& text) { note(text); }};
+    return sim::JournalSettings{resume_->path(),
+                                resume_->key(),
+                                output_.checkpoint_every_s,
+                                [this](const std::string& text) { note(text); },
+                                [this] { return fields_ ? fields_->seen() : std::string(); },
+                                [this](std::string_view bytes) {
+                                  if (fields_) fields_->see_again(bytes);
+                                }};
   }
 
   std::unique_ptr<sim::Experiment> build() {
@@ -204,6 +207,9 @@ class Run {
     const auto log = [this](int bus, const hal::CanFrame& frame) { recorder_->frame(bus, frame); };
     const auto observe = [&](const bridge::TickRecord& record) {
       recorder_->tick(record);
+      // Answers of the journal are of a bed that is not there; what was seen in it comes with the
+      // checkpoint.
+      if (fields_ && !(journal_ != nullptr && journal_->replaying())) fields_->tick(record.plant);
       if (record.plant.phase != sim::Phase::kFinished) {
         progress_->update(experiment_->progress(), moment(record.plant));
       }
@@ -331,6 +337,7 @@ class Run {
   std::unique_ptr<sim::Experiment> experiment_;
   sim::JournaledTerrain* journal_ = nullptr;  // null where the run cannot be resumed
   std::unique_ptr<Recorder> recorder_;
+  std::optional<RunFields> fields_;
 };
 
 }  // namespace

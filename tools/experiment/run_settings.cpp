@@ -130,6 +130,8 @@ void read_experiment(const sim::Reader& root, RunSettings& run) {
   std::string image;
   section.text("image", image);
   if (run.firmware != "host") run.image = image == "built" ? built_image() : image;
+  // Settings that were written before there were fields have no such key.
+  if (section.has("fields")) section.choice("fields", run.fields, {"none", "report", "vtk"});
   std::int64_t seed = 0;
   section.integer("seed", seed, 0, std::int64_t(1) << 53);
   run.seed = std::uint64_t(seed);

@@ -30,6 +30,7 @@ struct RunSettings {
   std::string bus;       // "in_process", or SocketCAN interfaces
   std::string firmware;  // "host": in this process; "emulated" or "qemu": the board's image
   std::string image;     // of that board, an ELF file; empty with "host"
+  std::string fields = "report";  // "none", "report" or "vtk": what is kept of the sand's insides
   std::uint64_t seed = 0;
   int threads = 1;
 
@@ -53,6 +54,8 @@ struct RunSettings {
 
   bool in_qemu() const { return firmware == "qemu"; }
   bool on_grains() const { return terrain == "dem"; }
+  /// A real machine's bench sees nothing of them.
+  bool keeps_fields() const { return on_grains() && fields != "none" && !concealed; }
   bool is_sinkage() const { return kind == "sinkage"; }
   double toe_rad() const { return is_sinkage() ? sinkage.toe_rad : traction.toe_rad; }
   std::array<bool, sim::kJointCount> has_drives() const;

@@ -8,6 +8,8 @@ namespace hoof::tools::assets {
 
 extern const std::string_view page_css;
 extern const std::string_view page_js;
+extern const std::string_view three_bundle_min_js;
+extern const std::string_view view_js;
 extern const std::string_view uPlot_iife_min_js;
 extern const std::string_view uPlot_min_css;
 

@@ -5,6 +5,7 @@
 
 #include "tools/report/display_unit.h"
 #include "tools/report/fault_section.h"
+#include "tools/report/fields_section.h"
 #include "tools/report/headline.h"
 #include "tools/report/html.h"
 #include "tools/report/page.h"
@@ -172,7 +173,8 @@ std::string make_report(const std::filesystem::path& run_folder) {
   const std::vector<PlotGroup> groups = group_plots(data.samples);
   const std::string body = "<div class=\"columns\">" + headline_section(data) +
                            resolution_section(data) + "</div>\n" + fault_section(data.result) +
-                           drawing_section(data) + plots_section(groups) + results_sections(data);
+                           drawing_section(data) + fields_section(data) + plots_section(groups) +
+                           results_sections(data);
   return make_page(title(data), body, json_samples(data, groups));
 }
 

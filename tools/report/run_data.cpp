@@ -39,9 +39,26 @@ std::vector<RunFile> list_files(const fs::path& run_folder) {
     if (entry.is_regular_file() && name != "report.html")
       files.push_back({name, entry.file_size()});
   }
+  // Of the frames for ParaView the one that names them all, of drawings none: they are above.
+  const fs::path frames = run_folder / "fields" / "fields.pvd";
+  if (fs::exists(frames)) files.push_back({"fields/fields.pvd", fs::file_size(frames)});
   std::sort(files.begin(), files.end(),
             [](const RunFile& a, const RunFile& b) { return a.name < b.name; });
   return files;
+}
+
+void read_fields(const fs::path& run_folder, RunData& data) {
+  data.fields = read_json(run_folder / "fields.json");
+  try {
+    for (const auto& map : data.fields.at("maps")) {
+      data.maps.push_back(read_file(run_folder / map.at("file").get<std::string>()));
+    }
+    data.fields.at("moments");
+  } catch (const nlohmann::json::exception& error) {
+    throw UserError((run_folder / "fields.json").string() + ": " + error.what());
+  }
+  const fs::path view = run_folder / "fields" / "view.json";
+  if (fs::exists(view)) data.view = read_file(view);
 }
 
 }  // namespace
@@ -65,6 +82,7 @@ RunData read_run_data(const fs::path& run_folder) {
   if (fs::exists(run_folder / "section.svg")) {
     data.section_svg = read_file(run_folder / "section.svg");
   }
+  if (fs::exists(run_folder / "fields.json")) read_fields(run_folder, data);
   data.files = list_files(run_folder);
   return data;
 }

@@ -23,6 +23,9 @@ struct RunData {
   std::string settings_text;        ///< settings.toml as it stands
   SampleTable samples;              ///< samples.csv
   std::string section_svg;          ///< drawing of the foot in the sand; empty on other ground
+  nlohmann::ordered_json fields;    ///< fields.json; null where the run kept none
+  std::vector<std::string> maps;    ///< the drawings that its "maps" names, in their order
+  std::string view;                 ///< fields/view.json as it stands; empty for none
   std::vector<RunFile> files;       ///< all files of the folder by name, but for report.html
 };
 

@@ -170,6 +170,37 @@ TEST_CASE("checkpoints come by the clock, and none while the journal answers") {
   CHECK(run.trace == undisturbed(11));
 }
 
+TEST_CASE("what others saw is kept with a checkpoint and given back once, when it goes on") {
+  const TemporaryFolder folder("journal");
+  const std::string large(100'000, 'x');
+  for (const std::string& saw : {std::string(), std::string("\0\1 a look", 9), large}) {
+    fs::remove_all(folder.path());
+    fs::create_directory(folder.path());
+    const auto ground = [&](Counts& counts, std::vector<std::string>& again) {
+      JournalSettings settings{folder.path(), kKey, 0, {}};
+      settings.seen = [&saw] { return saw; };
+      settings.see_again = [&again](std::string_view bytes) { again.emplace_back(bytes); };
+      return JournaledTerrain(std::make_unique<Oscillator>(counts), settings);
+    };
+    const std::vector<BodyMotion> motions;
+    std::vector<Wrench> wrenches;
+    Counts counts;
+    std::vector<std::string> again;
+    JournaledTerrain first = ground(counts, again);
+    for (int i = 0; i < 7; ++i) first.advance(kInterval_s, motions, wrenches);
+    first.write_checkpoint();
+    CHECK(again.empty());
+    JournaledTerrain second = ground(counts, again);
+    for (int i = 0; i < 6; ++i) second.advance(kInterval_s, motions, wrenches);
+    CHECK(again.empty());
+    second.advance(kInterval_s, motions, wrenches);
+    CHECK(again == std::vector<std::string>{saw});
+    second.advance(kInterval_s, motions, wrenches);
+    CHECK(again.size() == 1);
+    CHECK(counts.restores == 1);
+  }
+}
+
 TEST_CASE("a damaged checkpoint is named, and the one before it is used") {
   const TemporaryFolder folder("journal");
   {

@@ -30,7 +30,8 @@ const Strings kBrief = {"experiment.time_limit_s=0.025"};
 const Strings kCheckpoints = {"--checkpoint-every", "0.0003"};
 
 Strings command(const fs::path& out) {
-  return joined({"sinkage", "--threads", "1", "--out", out.string()}, on_test_sand(kBrief));
+  return joined({"sinkage", "--threads", "1", "--fields", "vtk", "--out", out.string()},
+                on_test_sand(kBrief));
 }
 
 Strings anew(const fs::path& out) {
@@ -76,8 +77,9 @@ Outcome disturb(const Strings& arguments, const fs::path& out, int signal_number
 }
 
 void check_same(const fs::path& undisturbed, const fs::path& out) {
-  for (const char* name :
-       {"bus.log", "samples.csv", "result.json", "telemetry.lcm", "settings.toml", "section.svg"}) {
+  for (const char* name : {"bus.log", "samples.csv", "result.json", "telemetry.lcm",
+                           "settings.toml", "section.svg", "fields.json", "fields/view.json",
+                           "fields/greatest_depth-chains.svg", "fields/contacts-00002.vtp"}) {
     CAPTURE(name);
     CHECK(read_file(undisturbed / name).size() > 500);
     CHECK(read_file(undisturbed / name) == read_file(out / name));
