@@ -5,7 +5,6 @@
 #include <cstddef>
 
 #include "firmware/update/field25519.h"
-#include "firmware/update/sha512.h"
 
 namespace hoof::firmware::update {
 namespace {
@@ -150,16 +149,20 @@ Point combine(const Scalar& s, const Scalar& k, const Point& Q) {
 
 }  // namespace
 
-bool verify(const Signature& signature, const PublicKey& key, std::span<const std::uint8_t> first,
-            std::span<const std::uint8_t> second) {
-  const std::span<const std::uint8_t, 64> both(signature);
+Verification::Verification(const Signature& signature, const PublicKey& key)
+    : signature_(signature), key_(key) {
+  hash_.add(std::span(signature_).first<32>()).add(key_);
+}
+
+bool Verification::good() {
+  const std::span<const std::uint8_t, 64> both(signature_);
   const auto R = both.first<32>();
   const Scalar S = words_of(both.last<32>());
   Scalar reduced = S;
   if (take_order(reduced)) return false;
   Point A;
-  if (!decode(key, A) || of_small_order(A)) return false;
-  const Scalar k = modulo_order(Sha512().add(R).add(key).add(first).add(second).finish());
+  if (!decode(key_, A) || of_small_order(A)) return false;
+  const Scalar k = modulo_order(hash_.finish());
   A.X = Field{} - A.X;
   A.T = Field{} - A.T;
   const Point sum = combine(S, k, A);

@@ -2,8 +2,13 @@
 #include "firmware/app/control_loop.h"
 #include "firmware/app/storage.h"
 #include "firmware/board/stm32f405/system.h"
+#include "firmware/protocol/protocol_hash.h"
 
 using namespace hoof::firmware;
+
+/// For the image's header: which dictionary it speaks.
+extern "C" [[gnu::section(".protocol_hash"), gnu::used]] const std::uint32_t hoof_protocol_hash =
+    protocol::kProtocolHash;
 
 int main() {
   stm32f405::System& system = stm32f405::system();
