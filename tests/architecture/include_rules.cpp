@@ -30,7 +30,7 @@ const std::vector<RoomRule> kRooms = {
       "firmware/trajectory/", "firmware/update/", "hal/*"}},
     {"firmware/update/",
      {"firmware/update/", "firmware/control/types.h", "firmware/protocol/", "hal/*"}},
-    {"firmware/board/", {"firmware/board/", "firmware/app/", "firmware/update/", "firmware/protocol/", "hal/"}},
+    {"firmware/board/", {"firmware/board/", "firmware/app/", "firmware/update/", "hal/"}},
     {"hal/", {"hal/"}},
     {"sim/dem/", {"sim/dem/"}},
     {"sim/", {"sim/"}},
