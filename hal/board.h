@@ -8,10 +8,11 @@ namespace hoof::hal {
 /// Why the board started.
 enum class ResetCause : std::uint8_t {
   kPowerOn = 0,
-  kPin,       // the reset button, or a debugger
-  kSoftware,  // asked for by the firmware itself, the fault handlers included
-  kWatchdog,  // a control cycle did not finish in time
-  kBrownOut,  // the supply fell below the level at which the core stops
+  kPin,        // the reset button, or a debugger
+  kSoftware,   // asked for by the firmware itself, the fault handlers included
+  kWatchdog,   // a control cycle did not finish in time
+  kBrownOut,   // the supply fell below the level at which the core stops
+  kRequested,  // asked for by a word that it obeyed: the start of a new image
 };
 
 /// One board. None of these calls waits.

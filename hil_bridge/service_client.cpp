@@ -19,11 +19,6 @@ constexpr std::int64_t kRepeat_ns = 50'000'000;  // an unanswered word is sent a
 /// Storing may keep the foot silent for half a second.
 constexpr std::int64_t kRepeatChange_ns = 1'000'000'000;
 
-bool changes_something(Service service) {
-  return service != Service::kReadParameter && service != Service::kReadStatus &&
-         service != Service::kReadFaultLog;
-}
-
 std::string name_of(std::span<const ValueName> names, std::uint32_t value) {
   for (const ValueName& n : names) {
     if (n.value == value) return std::string(n.name);
@@ -71,6 +66,31 @@ float ServiceClient::calibrate_zero(std::uint8_t joint) {
   return std::bit_cast<float>(change(Service::kCalibrateZero, joint).value);
 }
 
+ServiceResult ServiceClient::write_update(UpdateObject object, std::uint32_t value,
+                                          std::int64_t repeat_ns) {
+  const auto index = static_cast<std::uint8_t>(object);
+  const std::uint8_t counter = counter_;
+  const Answer answer = exchange(frame(Service::kWriteParameter, index, 0, value, counter),
+                                 Service::kWriteParameter, index, counter, repeat_ns);
+  switch (answer.result) {
+    case ServiceResult::kBadCounter:
+      counter_ = static_cast<std::uint8_t>(answer.value);
+      break;
+    case ServiceResult::kNotConnected:
+      say_hello();
+      break;
+    case ServiceResult::kNotOwner:
+      break;  // was not counted
+    default:
+      counter_ = static_cast<std::uint8_t>(counter + 1);
+  }
+  return answer.result;
+}
+
+void ServiceClient::wait_until(std::int64_t time_ns) {
+  while (clock_.now_ns() < time_ns) idle_();
+}
+
 std::uint32_t ServiceClient::status(Status what) {
   const Answer answer = request(Service::kReadStatus, static_cast<std::uint8_t>(what));
   if (answer.result != ServiceResult::kDone) refuse(answer);
@@ -104,7 +124,8 @@ ServiceClient::Answer ServiceClient::request(Service service, std::uint8_t index
                                              std::uint16_t offset) {
   for (int attempt = 0;; ++attempt) {
     const std::uint8_t tag = ++tag_;
-    const Answer answer = exchange(frame(service, index, offset, 0, tag), service, index, tag);
+    const Answer answer =
+        exchange(frame(service, index, offset, 0, tag), service, index, tag, kRepeat_ns);
     if (answer.result != ServiceResult::kNotConnected || attempt > 0) {
       if (service == Service::kReadParameter && answer.result != ServiceResult::kDone) {
         refuse(answer);
@@ -122,8 +143,8 @@ ServiceClient::Answer ServiceClient::change(Service service, std::uint8_t index,
                                             std::uint32_t value) {
   for (int attempt = 0;; ++attempt) {
     const std::uint8_t counter = counter_;
-    const Answer answer =
-        exchange(frame(service, index, 0, value, counter), service, index, counter);
+    const Answer answer = exchange(frame(service, index, 0, value, counter), service, index,
+                                   counter, kRepeatChange_ns);
     if (answer.result == ServiceResult::kDone) {
       counter_ = static_cast<std::uint8_t>(counter + 1);
       return answer;
@@ -148,13 +169,13 @@ hal::CanFrame ServiceClient::frame(Service service, std::uint8_t index, std::uin
 }
 
 ServiceClient::Answer ServiceClient::exchange(const hal::CanFrame& frame, Service service,
-                                              std::uint8_t index, std::uint8_t counter) {
+                                              std::uint8_t index, std::uint8_t counter,
+                                              std::int64_t repeat_ns) {
   Answer answer;
   const auto matches = [&](const hal::CanFrame& received) {
     return decode(received, answer) == DecodeResult::kOk && answer.service == service &&
            answer.index == index && answer.counter == counter;
   };
-  const std::int64_t repeat_ns = changes_something(service) ? kRepeatChange_ns : kRepeat_ns;
   const std::int64_t give_up_ns = clock_.now_ns() + timeout_ns_;
   while (clock_.now_ns() < give_up_ns) {
     send(frame);

@@ -42,6 +42,15 @@ class ServiceClient {
   /// @param joint 0 toe, 1 hip, 2 knee @return the new zero, rad
   float calibrate_zero(std::uint8_t joint);
 
+  /// One part of a firmware update, once: where the result is kBadCounter or kNotConnected the foot
+  /// may have done it or not, and its status tells. Sent again after `repeat_ns` without an answer.
+  firmware::protocol::ServiceResult write_update(firmware::protocol::UpdateObject object,
+                                                 std::uint32_t value, std::int64_t repeat_ns);
+  /// Connects again, to a foot that has started anew, say; of any table of parameters.
+  void greet() { say_hello(); }
+  void wait_until(std::int64_t time_ns);
+  std::int64_t now_ns() const { return clock_.now_ns(); }
+
   std::uint32_t status(firmware::protocol::Status what);
   /// Nothing where the foot keeps no storage.
   std::optional<std::uint32_t> stored_status(firmware::protocol::Status what);
@@ -58,7 +67,7 @@ class ServiceClient {
   hal::CanFrame frame(Service service, std::uint8_t index, std::uint16_t offset,
                       std::uint32_t value, std::uint8_t counter) const;
   Answer exchange(const hal::CanFrame& frame, Service service, std::uint8_t index,
-                  std::uint8_t counter);
+                  std::uint8_t counter, std::int64_t repeat_ns);
   void say_hello();
   template <typename Match>
   bool listen(std::int64_t until_ns, const Match& match);

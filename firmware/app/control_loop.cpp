@@ -46,7 +46,7 @@ hal::CanFrame frame_for(protocol::Drive drive, const JointWish& wish, float zero
 }  // namespace
 
 ControlLoop::ControlLoop(Buses buses, const hal::Clock& clock, hal::Board& board,
-                         const Parameters& parameters, Storage* storage)
+                         const Parameters& parameters, Storage* storage, hal::ImageSlots* slots)
     : buses_(buses),
       clock_(clock),
       board_(board),
@@ -56,7 +56,8 @@ ControlLoop::ControlLoop(Buses buses, const hal::Clock& clock, hal::Board& board
       controller_(parameters.settings(), parameters.presence()),
       gate_(parameters.presence()),
       orders_(controller_, gate_, ownership_),
-      services_(parameters_, storage, ownership_, inbox_, board.reset_cause()) {
+      update_(slots),
+      services_(parameters_, storage, ownership_, inbox_, board.reset_cause(), &update_) {
   for (std::size_t i = 0; i < control::kJointCount; ++i) {
     inbox_.set_zero(static_cast<Joint>(i), parameters_.zero_rad(static_cast<Joint>(i)));
   }
@@ -67,7 +68,8 @@ ControlLoop::ControlLoop(Buses buses, const hal::Clock& clock, hal::Board& board
 void ControlLoop::examine_start() {
   FaultBits found = 0;
   const hal::ResetCause cause = board_.reset_cause();
-  // This firmware asks for no reset but in its fault handlers.
+  // But for a restart that it was told to do this firmware asks for a reset in its fault handlers
+  // alone.
   const bool crashed = cause == hal::ResetCause::kSoftware;
   if (crashed || cause == hal::ResetCause::kWatchdog) found |= fault::kUnexpectedReset;
   if (cause == hal::ResetCause::kBrownOut) found |= fault::kBrownOut;
@@ -89,6 +91,7 @@ void ControlLoop::poll() {
     answer_services(now_ns);
   }
   run_due_tick(now_ns);
+  watch_update(now_ns);
   send_exit_again();
   send_heartbeat_if_due(now_ns);
   outbox_.flush(*buses_[0]);
@@ -174,6 +177,17 @@ void ControlLoop::answer_services(std::int64_t now_ns) {
     if (found_by_homing && controller_.homed()) continue;
     inbox_.set_zero(joint, parameters_.zero_rad(joint));
   }
+}
+
+void ControlLoop::watch_update(std::int64_t now_ns) {
+  Health health;
+  const Mode mode = controller_.mode();
+  health.idle = mode == Mode::kOff || mode == Mode::kFault || mode == Mode::kEmergencyOff;
+  health.faulty = controller_.faults() != 0;
+  for (const hal::CanBus* bus : buses_) health.faulty = health.faulty || bus->status().bus_off;
+  health.ticks = counters_.ticks;
+  health.overruns = counters_.overruns;
+  update_.poll(now_ns, health);
 }
 
 void ControlLoop::run_due_tick(std::int64_t now_ns) {
@@ -358,6 +372,7 @@ std::int64_t ControlLoop::next_due_ns() const {
   } else if (controller_.mode() == Mode::kDampedStop) {
     sooner(last_tick_ns_ + kTick_ns);
   }
+  if (update_.restart_pending()) sooner(0);
   if (storage_ != nullptr) sooner(log_step_ns_ + kTick_ns);
   return due_ns;
 }

@@ -12,6 +12,7 @@
 #include "firmware/app/service_desk.h"
 #include "firmware/app/storage.h"
 #include "firmware/app/telemetry.h"
+#include "firmware/app/update_desk.h"
 #include "firmware/control/foot_controller.h"
 #include "firmware/safety/board_heat.h"
 #include "firmware/safety/cycle_watch.h"
@@ -35,9 +36,10 @@ class ControlLoop {
 
   /// @param buses two connections; they may lead to one wire
   /// @param storage from which the parameters were loaded; null where nothing is kept
+  /// @param slots null where the firmware cannot be updated
   /// All but the parameters must outlive the loop.
   ControlLoop(Buses buses, const hal::Clock& clock, hal::Board& board, const Parameters& parameters,
-              Storage* storage = nullptr);
+              Storage* storage = nullptr, hal::ImageSlots* slots = nullptr);
   ControlLoop(const ControlLoop&) = delete;
   ControlLoop& operator=(const ControlLoop&) = delete;
 
@@ -76,6 +78,7 @@ class ControlLoop {
   void answer_orders(std::int64_t now_ns);
   void answer_services(std::int64_t now_ns);
   void adopt_parameters();
+  void watch_update(std::int64_t now_ns);
   void run_due_tick(std::int64_t now_ns);
   [[gnu::noinline]] void tick(std::int64_t now_ns, std::uint32_t elapsed_ticks);
   void adopt_toe_zero();
@@ -106,6 +109,7 @@ class ControlLoop {
   safety::BoardHeatWatch heat_;
   Ownership ownership_;
   OrderDesk orders_;
+  UpdateDesk update_;
   ServiceDesk services_;
   Outbox outbox_;
   Telemetry telemetry_;

@@ -54,7 +54,10 @@ protocol::ServiceAnswer ServiceDesk::handle(const protocol::ServiceRequest& requ
 protocol::ServiceAnswer ServiceDesk::handle(const protocol::ParameterWrite& write, Mode mode,
                                             std::int64_t now_ns) {
   Outcome outcome = admit(write.supervisor_id, write.counter, mode, now_ns);
-  if (outcome.result == ServiceResult::kDone) outcome = write_parameter(write.index, write.value);
+  if (outcome.result == ServiceResult::kDone) {
+    outcome = UpdateDesk::owns(write.index) ? write_update(write.index, write.value)
+                                            : write_parameter(write.index, write.value);
+  }
   return {Service::kWriteParameter, outcome.result, write.index, write.counter, outcome.value};
 }
 
@@ -140,6 +143,11 @@ ServiceDesk::Outcome ServiceDesk::write_parameter(std::uint8_t index, std::uint3
   return {ServiceResult::kDone, bits};
 }
 
+ServiceDesk::Outcome ServiceDesk::write_update(std::uint8_t index, std::uint32_t value) {
+  if (update_ == nullptr) return {ServiceResult::kNoStorage};
+  return {update_->write(index, value), value};
+}
+
 ServiceDesk::Outcome ServiceDesk::store(Mode mode) {
   if (storage_ == nullptr) return {ServiceResult::kNoStorage};
   const ServiceResult result = result_of(storage_->store(parameters_, mode));
@@ -186,8 +194,13 @@ ServiceDesk::Outcome ServiceDesk::read_status(std::uint8_t index) const {
     default:
       break;
   }
-  if (index > static_cast<std::uint8_t>(Status::kWordsPerRecord)) {
+  if (index > static_cast<std::uint8_t>(Status::kUpdateProblem)) {
     return {ServiceResult::kNoSuchIndex};
+  }
+  if (index >= static_cast<std::uint8_t>(Status::kImageSlot)) {
+    const auto value =
+        update_ == nullptr ? std::nullopt : update_->status(static_cast<Status>(index));
+    return value ? answer(*value) : Outcome{ServiceResult::kNoStorage};
   }
   if (storage_ == nullptr) return {ServiceResult::kNoStorage};
   const FaultLog& log = storage_->fault_log();

@@ -1,4 +1,4 @@
-// Parameters, calibration and fault log over the bus.
+// Parameters, calibration, fault log and firmware update over the bus.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +7,7 @@
 #include "firmware/app/ownership.h"
 #include "firmware/app/parameters.h"
 #include "firmware/app/storage.h"
+#include "firmware/app/update_desk.h"
 #include "firmware/protocol/messages.h"
 #include "hal/board.h"
 
@@ -18,13 +19,15 @@ namespace hoof::firmware::app {
 class ServiceDesk {
  public:
   /// @param storage null on a board that keeps nothing
+  /// @param update null on a board that cannot be updated
   ServiceDesk(Parameters& parameters, Storage* storage, Ownership& ownership, const Inbox& inbox,
-              hal::ResetCause reset_cause)
+              hal::ResetCause reset_cause, UpdateDesk* update = nullptr)
       : parameters_(parameters),
         storage_(storage),
         ownership_(ownership),
         inbox_(inbox),
-        reset_cause_(reset_cause) {}
+        reset_cause_(reset_cause),
+        update_(update) {}
 
   protocol::ServiceAnswer handle(const protocol::ServiceRequest& request, control::Mode mode,
                                  std::int64_t now_ns);
@@ -47,6 +50,7 @@ class ServiceDesk {
   Outcome change(const protocol::ServiceRequest& request, control::Mode mode, std::int64_t now_ns);
   Outcome read_parameter(std::uint8_t index);
   Outcome write_parameter(std::uint8_t index, std::uint32_t bits);
+  Outcome write_update(std::uint8_t index, std::uint32_t value);
   Outcome store(control::Mode mode);
   Outcome calibrate(std::uint8_t joint, std::int64_t now_ns);
   Outcome read_status(std::uint8_t index) const;
@@ -58,6 +62,7 @@ class ServiceDesk {
   Ownership& ownership_;
   const Inbox& inbox_;
   hal::ResetCause reset_cause_;
+  UpdateDesk* update_;
   bool changed_ = false;
 };
 

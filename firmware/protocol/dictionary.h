@@ -63,11 +63,17 @@ inline constexpr ValueName kServiceResultNames[] = {
     {8, "busy"},          {9, "nothing_there"}, {10, "no_storage"}, {11, "not_connected"}};
 
 /// `index` of the service read_status.
-inline constexpr ValueName kStatusNames[] = {{0, "parameter_count"}, {1, "parameter_table_hash"},
-                                             {2, "stored_sequence"}, {3, "load_result"},
-                                             {4, "log_state"},       {5, "log_used"},
-                                             {6, "log_capacity"},    {7, "log_lost"},
-                                             {8, "reset_cause"},     {9, "words_per_record"}};
+inline constexpr ValueName kStatusNames[] = {{0, "parameter_count"},  {1, "parameter_table_hash"},
+                                             {2, "stored_sequence"},  {3, "load_result"},
+                                             {4, "log_state"},        {5, "log_used"},
+                                             {6, "log_capacity"},     {7, "log_lost"},
+                                             {8, "reset_cause"},      {9, "words_per_record"},
+                                             {10, "image_slot"},      {11, "image_version"},
+                                             {12, "image_on_trial"},  {13, "image_healthy"},
+                                             {14, "spare_version"},   {15, "spare_refusal"},
+                                             {16, "update_state"},    {17, "update_next_word"},
+                                             {18, "update_checksum"}, {19, "update_version"},
+                                             {20, "update_problem"}};
 
 // ---- signals ------------------------------------------------------------------------------------
 
@@ -130,8 +136,8 @@ inline constexpr Signal kSupervisorConnectSignals[] = {
 
 inline constexpr Signal kParameterWriteSignals[] = {
     number("supervisor_id", 0, 8, "Who writes; must own the foot, or nobody may"),
-    number("index", 8, 8, "Place in the parameter table"),
-    number("value", 16, 32, "IEEE 754 binary32"),
+    number("index", 8, 8, "Place in the parameter table; from 224 on part of a firmware update"),
+    number("value", 16, 32, "IEEE 754 binary32; of an update a word"),
     number("counter", 48, 8, "Must be the expected one, as of an order"),
     number("crc", 56, 8, "CRC-8")};
 
@@ -256,11 +262,11 @@ inline constexpr auto kMessages = std::to_array<MessageSpec>({
      kOrderAcknowledgeSignals, "Answers every order frame"},
     {"SupervisorConnect", 0x042, 8, true, 0, 10, Node::kSupervisor, Node::kFoot, kBus0,
      kSupervisorConnectSignals, "Before the first order; answered by OrderAcknowledge"},
-    {"ParameterWrite", 0x043, 8, true, 0, 10, Node::kSupervisor, Node::kFoot, kBus0,
+    {"ParameterWrite", 0x043, 8, true, 0, 2, Node::kSupervisor, Node::kFoot, kBus0,
      kParameterWriteSignals, "In mode off only; answered by ServiceAnswer"},
     {"ServiceRequest", 0x044, 8, true, 0, 10, Node::kSupervisor, Node::kFoot, kBus0,
      kServiceRequestSignals, "Parameters, calibration, fault log; answered by ServiceAnswer"},
-    {"ServiceAnswer", 0x045, 8, true, 0, 10, Node::kFoot, Node::kSupervisor, kBus0,
+    {"ServiceAnswer", 0x045, 8, true, 0, 2, Node::kFoot, Node::kSupervisor, kBus0,
      kServiceAnswerSignals, "Answers every ServiceRequest and ParameterWrite"},
     {"Heartbeat", 0x050, 8, true, 100, 10, Node::kFoot, Node::kSupervisor, kBus0, kHeartbeatSignals,
      "At 10 Hz and on change"},

@@ -85,6 +85,28 @@ enum class Status : std::uint8_t {
   kLogLost,
   kResetCause,
   kWordsPerRecord,
+  kImageSlot,  // from here on of a board that can be updated: 0 is slot A, 1 slot B
+  kImageVersion,
+  kImageOnTrial,
+  kImageHealthy,
+  kSpareVersion,  // all ones where there is no image
+  kSpareRefusal,  // update::Problem
+  kUpdateState,
+  kUpdateNextWord,
+  kUpdateChecksum,  // of the image that is being brought
+  kUpdateVersion,
+  kUpdateProblem,
+};
+
+/// `index` of a ParameterWrite that is no parameter but a part of a firmware update. What each
+/// does: app::UpdateDesk.
+enum class UpdateObject : std::uint8_t {
+  kOpen = 0xE0,
+  kWord,
+  kErase,
+  kFinish,
+  kRestart,
+  kConfirm,
 };
 
 struct EmergencyStop {

@@ -27,12 +27,15 @@ const std::vector<RoomRule> kRooms = {
     {"firmware/protocol/", {"firmware/protocol/", "hal/can_frame.h", "hal/can_timing.h"}},
     {"firmware/app/",
      {"firmware/app/", "firmware/control/", "firmware/safety/", "firmware/protocol/",
-      "firmware/trajectory/", "hal/*"}},
-    {"firmware/board/", {"firmware/board/", "firmware/app/", "hal/"}},
+      "firmware/trajectory/", "firmware/update/", "hal/*"}},
+    {"firmware/update/",
+     {"firmware/update/", "firmware/control/types.h", "firmware/protocol/", "hal/*"}},
+    {"firmware/board/", {"firmware/board/", "firmware/app/", "firmware/update/", "hal/"}},
     {"hal/", {"hal/"}},
     {"sim/dem/", {"sim/dem/"}},
     {"sim/", {"sim/"}},
-    {"hil_bridge/", {"hil_bridge/", "sim/", "hal/", "firmware/protocol/", "firmware/app/"}},
+    {"hil_bridge/",
+     {"hil_bridge/", "sim/", "hal/", "firmware/protocol/", "firmware/app/", "firmware/update/"}},
     {"tools/", {"tools/", "hil_bridge/", "sim/", "hal/", "firmware/"}},
     {"tests/", {""}},
 };
@@ -50,10 +53,10 @@ struct SystemRule {
 };
 
 const std::vector<SystemRule> kSystemRules = {
-    {{"firmware/control/", "firmware/safety/", "firmware/app/"},
+    {{"firmware/control/", "firmware/safety/", "firmware/update/", "firmware/app/"},
      {"cmath", "math.h"},
      "control code does without libm, so that host and board agree bit for bit"},
-    {{"firmware/control/", "firmware/safety/", "firmware/app/"},
+    {{"firmware/control/", "firmware/safety/", "firmware/update/", "firmware/app/"},
      {"deque", "forward_list", "functional", "list", "map", "memory", "queue", "set", "string",
       "unordered_map", "unordered_set", "vector", "fstream", "iostream", "sstream", "thread",
       "mutex", "exception", "stdexcept"},

@@ -20,7 +20,8 @@ CLI::Option* add_foot_flags(CLI::App& command, FootFlags& flags) {
       ->required();
 }
 
-void with_foot(const FootFlags& flags, const std::function<void(bridge::ServiceClient&)>& work) {
+void with_any_foot(const FootFlags& flags,
+                   const std::function<void(bridge::ServiceClient&)>& work) {
   hal::SocketCanSettings settings;
   settings.interface = flags.bus;
   hal::SocketCanBus bus(settings);
@@ -29,11 +30,18 @@ void with_foot(const FootFlags& flags, const std::function<void(bridge::ServiceC
       bus, clock, [&bus] { bus.wait(1'000'000); }, std::uint8_t(flags.id),
       std::int64_t(flags.timeout_s * 1e9));
   try {
-    client.connect();
+    client.greet();
     work(client);
   } catch (const bridge::ServiceError& error) {
     throw CannotFinish(error.what());
   }
+}
+
+void with_foot(const FootFlags& flags, const std::function<void(bridge::ServiceClient&)>& work) {
+  with_any_foot(flags, [&work](bridge::ServiceClient& client) {
+    client.connect();
+    work(client);
+  });
 }
 
 }  // namespace hoof::tools

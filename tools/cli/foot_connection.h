@@ -22,4 +22,7 @@ CLI::Option* add_foot_flags(CLI::App& command, FootFlags& flags);
 /// @throws CannotFinish where nobody answers or the foot refuses, saying why
 void with_foot(const FootFlags& flags, const std::function<void(bridge::ServiceClient&)>& work);
 
+/// The same with a foot whose table of parameters may be another than this program's.
+void with_any_foot(const FootFlags& flags, const std::function<void(bridge::ServiceClient&)>& work);
+
 }  // namespace hoof::tools

@@ -56,6 +56,7 @@ int main(int argc, char** argv) {
   add_dbc_command(app, invocation);
   add_trajectory_command(app);
   add_report_command(app, invocation);
+  add_firmware_command(app, invocation);
   add_log_command(app, invocation);
   add_replay_command(app, invocation);
   add_compare_command(app, invocation);

@@ -1,6 +1,7 @@
 #include "tools/emulator/board.h"
 
 #include <algorithm>
+#include <cstring>
 #include <random>
 #include <vector>
 
@@ -10,6 +11,8 @@ namespace {
 constexpr std::uint32_t kFlash = 0x0800'0000, kFlashBytes = 1u << 20;
 constexpr std::uint32_t kData = FlashController::kDataStart;
 constexpr std::uint32_t kAfterData = kData + FlashController::kDataBytes;
+constexpr std::uint32_t kSlots = FlashController::kSlotsStart;
+constexpr std::uint32_t kAfterSlots = kSlots + FlashController::kSlotsBytes;
 constexpr std::uint32_t kRam = 0x2000'0000, kRamBytes = 128u << 10;
 constexpr std::uint32_t kPeripherals = 0x4000'0000, kPeripheralBytes = 0x8'0000;
 constexpr std::uint32_t kSystem = 0xE000'E000, kSystemBytes = 0x1000;
@@ -26,7 +29,8 @@ constexpr std::uint32_t kPowerClock = 28, kUsart2Clock = 17, kUsart1Clock = 4;
 
 hal::RamFlash blank_flash(std::uint32_t seed) {
   const std::size_t words = FlashController::kSectorBytes / 4;
-  return hal::RamFlash({words, words, words}, seed);
+  const std::size_t slot_words = FlashController::kSlotBytes / 4;
+  return hal::RamFlash({words, words, words, slot_words, slot_words}, seed);
 }
 
 Board::Board(ElfFile image, hal::RamFlash& flash)
@@ -35,7 +39,9 @@ Board::Board(ElfFile image, hal::RamFlash& flash)
   can_[0] = std::make_unique<BxCan>(1, time_, nvic_, filters_, 19, apb1);
   can_[1] = std::make_unique<BxCan>(2, time_, nvic_, filters_, 63, apb1);
   cpu_.map_memory(kFlash, kData - kFlash, Cpu::Access::kReadExecute);
-  cpu_.map_memory(kAfterData, kFlash + kFlashBytes - kAfterData, Cpu::Access::kReadExecute);
+  cpu_.map_memory(kAfterData, kSlots - kAfterData, Cpu::Access::kReadExecute);
+  cpu_.map_flash(kSlots, flash_.slots(), *this);
+  cpu_.map_memory(kAfterSlots, kFlash + kFlashBytes - kAfterSlots, Cpu::Access::kReadExecute);
   cpu_.map_memory(kRam, kRamBytes, Cpu::Access::kAll);
   cpu_.map_memory(kSystemMemory, kSystemMemoryBytes, Cpu::Access::kReadExecute);
   cpu_.map_registers(kData, FlashController::kDataBytes, *this);
@@ -48,15 +54,31 @@ Board::Board(ElfFile image, hal::RamFlash& flash)
 void Board::load_image() {
   const std::vector<std::uint8_t> erased(kFlashBytes, 0xFF);
   cpu_.write_memory(kFlash, erased.data(), kData - kFlash);
-  cpu_.write_memory(kAfterData, erased.data(), kFlash + kFlashBytes - kAfterData);
+  cpu_.write_memory(kAfterData, erased.data(), kSlots - kAfterData);
+  cpu_.write_memory(kAfterSlots, erased.data(), kFlash + kFlashBytes - kAfterSlots);
   const auto factory = Adc::factory_calibration();
   cpu_.write_memory(Adc::kFactoryAddress, factory.data(), sizeof factory);
+  flash_.show_slots();
+  const bool blank = std::ranges::all_of(flash_.slots(), [](auto byte) { return byte == 0xFF; });
   for (const ElfFile::Segment& s : image_.segments) {
-    if (!cpu_.write_memory(s.load_address, s.bytes.data(), s.bytes.size())) {
-      throw EmulatorError("the image has " + std::to_string(s.bytes.size()) + " bytes at " +
-                          hex(s.load_address) + ", where it cannot be written");
-    }
+    const bool slot = s.load_address >= kSlots && s.load_address < kAfterSlots;
+    if (!slot) load_segment(s);
+    if (slot && blank) load_slots(s.load_address, s.bytes);
     cpu_.watch_unmasking(s.run_address, s.bytes);
+  }
+}
+
+void Board::load_segment(const ElfFile::Segment& s) {
+  if (cpu_.write_memory(s.load_address, s.bytes.data(), s.bytes.size())) return;
+  throw EmulatorError("the image has " + std::to_string(s.bytes.size()) + " bytes at " +
+                      hex(s.load_address) + ", where it cannot be written");
+}
+
+void Board::load_slots(std::uint32_t address, const std::vector<std::uint8_t>& bytes) {
+  for (std::size_t i = 0; i < bytes.size(); i += 4) {
+    std::uint32_t word = hal::Nonvolatile::kErased;
+    std::memcpy(&word, bytes.data() + i, std::min<std::size_t>(4, bytes.size() - i));
+    flash_.put_word(address + std::uint32_t(i), word);
   }
 }
 
@@ -119,6 +141,8 @@ void Board::start(hal::ResetCause cause) {
   rcc_.reset();
   rcc_.note_reset(cause);
   flash_.reset();
+  cpu_.forget_code(kSlots, FlashController::kSlotsBytes);
+  cpu_.watch_unmasking(kSlots, flash_.slots());
   iwdg_.reset();
   pwr_.reset();
   port_a_.reset();
@@ -252,7 +276,7 @@ Peripheral& Board::peripheral_at(std::uint32_t address, std::uint32_t& offset) {
 
 std::uint32_t Board::read(std::uint32_t address, unsigned bytes) {
   if (address >= kData && address < kAfterData) {
-    const std::uint32_t word = flash_.read_word((address - kData) & ~3u);
+    const std::uint32_t word = flash_.read_word(address & ~3u);
     return word >> (8 * (address & 3)) & (bytes == 4 ? ~0u : (1u << (8 * bytes)) - 1);
   }
   if (bytes != 4)
@@ -266,7 +290,9 @@ void Board::write(std::uint32_t address, unsigned bytes, std::uint32_t value) {
   if (bytes != 4)
     throw EmulatorError("register " + hex(address) + " is written by " + std::to_string(bytes) +
                         " bytes");
-  if (address >= kData && address < kAfterData) return flash_.program_word(address - kData, value);
+  const bool slot = address >= kSlots && address < kAfterSlots;
+  if (slot || (address >= kData && address < kAfterData))
+    return flash_.program_word(address, value);
   std::uint32_t offset = 0;
   peripheral_at(address, offset).write(offset, value);
   if (control_.reset_requested()) cpu_.request_stop();

@@ -24,7 +24,7 @@
 
 namespace hoof::tools::emulator {
 
-/// The data sectors of a part fresh from the factory.
+/// What a part fresh from the factory keeps: sectors 1 to 3 of data, 5 and 6 for images.
 hal::RamFlash blank_flash(std::uint32_t seed = 1);
 
 /// Runs the image as it is. The core is taken to be infinitely fast: time stands still while it
@@ -34,7 +34,9 @@ class Board final : private RegisterSpace {
  public:
   static constexpr std::size_t kBuses = 2;
 
-  /// @param flash what sectors 1 to 3 hold: outlives the board, as real flash does a supply
+  /// @param image is written as a programmer would write it; into the slots only where both are
+  /// blank, so that an update outlives the board as well
+  /// @param flash what sectors 1 to 3, 5 and 6 hold: outlives the board, as real flash does a supply
   Board(ElfFile image, hal::RamFlash& flash);
 
   /// The supply comes on: RAM holds anything, the image starts. Runs until it sleeps for the first
@@ -84,6 +86,8 @@ class Board final : private RegisterSpace {
   void write(std::uint32_t address, unsigned bytes, std::uint32_t value) override;
   Peripheral& peripheral_at(std::uint32_t address, std::uint32_t& offset);
   void load_image();
+  void load_segment(const ElfFile::Segment& segment);
+  void load_slots(std::uint32_t address, const std::vector<std::uint8_t>& bytes);
   void start(hal::ResetCause cause);
   void run();
   void run_core();

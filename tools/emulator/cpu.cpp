@@ -6,6 +6,7 @@
 #include <exception>
 #include <memory>
 #include <new>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -46,13 +47,21 @@ struct Cpu::Machine {
     std::unique_ptr<std::uint8_t[], Free> bytes;
   };
 
+  struct Flash {
+    RegisterSpace& writes;
+    std::uint32_t base;
+    std::span<std::uint8_t> bytes;
+  };
+
   uc_engine* engine = nullptr;
   std::vector<Memory> memories;
   std::vector<std::unique_ptr<Window>> windows;
+  std::vector<Flash> flashes;
   std::exception_ptr error;
   Fault fault;
   bool at_checkpoint = false;
-  std::uint64_t left_checkpoint = 0;  // where run() began: stopped there before
+  std::set<std::uint64_t> checkpoints;  // where it stops
+  std::uint64_t left_checkpoint = 0;    // where run() began: stopped there before
   std::function<bool()> interrupt_waits;
   bool requested = false;
   bool stuck = false;
@@ -65,12 +74,16 @@ struct Cpu::Machine {
 
   void stop() { uc_emu_stop(engine); }
 
-  /// Null where not all of it is plain memory.
+  /// Null where not all of it is memory.
   std::uint8_t* memory_at(std::uint32_t address, std::size_t size) {
-    for (Memory& m : memories) {
-      if (address >= m.base && address - m.base <= m.size && size <= m.size - (address - m.base)) {
-        return m.bytes.get() + (address - m.base);
-      }
+    const auto within = [&](std::uint32_t base, std::size_t bytes) {
+      return address >= base && address - base <= bytes && size <= bytes - (address - base);
+    };
+    for (const Memory& m : memories) {
+      if (within(m.base, m.size)) return m.bytes.get() + (address - m.base);
+    }
+    for (const Flash& f : flashes) {
+      if (within(f.base, f.bytes.size())) return f.bytes.data() + (address - f.base);
     }
     return nullptr;
   }
@@ -105,9 +118,22 @@ struct Cpu::Machine {
     m->interrupt = number;
     m->stop();
   }
-  static bool on_invalid(uc_engine*, uc_mem_type, std::uint64_t address, int, std::int64_t,
-                         void* data) {
-    static_cast<Machine*>(data)->fault.address = std::uint32_t(address);
+  /// @return whether the access is dealt with: Unicorn then drops it, as the memory is read-only
+  static bool on_invalid(uc_engine*, uc_mem_type type, std::uint64_t at, int bytes,
+                         std::int64_t value, void* data) {
+    auto* m = static_cast<Machine*>(data);
+    const auto address = std::uint32_t(at);
+    for (const Flash& flash : m->flashes) {
+      if (type != UC_MEM_WRITE_PROT || address - flash.base >= flash.bytes.size()) {
+        continue;
+      }
+      m->guarded([&] {
+        flash.writes.write(address, unsigned(bytes), std::uint32_t(value));
+        return 0u;
+      });
+      return true;
+    }
+    m->fault.address = address;
     return false;
   }
   static void on_checkpoint(uc_engine*, std::uint64_t address, std::uint32_t, void* data) {
@@ -170,6 +196,17 @@ void Cpu::map_registers(std::uint32_t base, std::uint32_t bytes, RegisterSpace& 
           "map registers");
 }
 
+void Cpu::map_flash(std::uint32_t base, std::span<std::uint8_t> memory, RegisterSpace& writes) {
+  require(uc_mem_map_ptr(machine_->engine, base, memory.size(), UC_PROT_READ | UC_PROT_EXEC,
+                         memory.data()),
+          "map flash");
+  machine_->flashes.push_back({writes, base, memory});
+}
+
+void Cpu::forget_code(std::uint32_t base, std::uint32_t bytes) {
+  uc_ctl_remove_cache(machine_->engine, base, base + bytes);
+}
+
 /// CPSIE i and f, and MSR of PRIMASK, FAULTMASK, BASEPRI and CONTROL; data that look like one cost
 /// a stop and nothing else.
 void Cpu::watch_unmasking(std::uint32_t run_address, std::span<const std::uint8_t> code) {
@@ -179,6 +216,7 @@ void Cpu::watch_unmasking(std::uint32_t run_address, std::span<const std::uint8_
     const bool msr = (half(i) & 0xFFF0) == 0xF380 && (half(i + 2) & 0xFFFC) == 0x8810;
     if (!cps && !msr) continue;
     const std::uint64_t next = run_address + i + (cps ? 2 : 4);
+    if (!machine_->checkpoints.insert(next).second) continue;
     machine_->hook(UC_HOOK_CODE, Machine::on_checkpoint, next, next);
   }
 }

@@ -55,6 +55,11 @@ class Cpu {
 
   void map_memory(std::uint32_t base, std::uint32_t bytes, Access access);
   void map_registers(std::uint32_t base, std::uint32_t bytes, RegisterSpace& space);
+  /// Memory of the caller's that the core reads and executes; what it stores there goes to `writes`
+  /// and changes nothing by itself. After a change call forget_code().
+  void map_flash(std::uint32_t base, std::span<std::uint8_t> memory, RegisterSpace& writes);
+  /// What was translated of these addresses is no longer what stands there. Not while it runs.
+  void forget_code(std::uint32_t base, std::uint32_t bytes);
   /// While an interrupt waits, stops at instructions that follow one which may unmask interrupts,
   /// wherever they are in `code`.
   void watch_unmasking(std::uint32_t run_address, std::span<const std::uint8_t> code);

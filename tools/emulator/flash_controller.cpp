@@ -1,6 +1,7 @@
 #include "tools/emulator/flash_controller.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace hoof::tools::emulator {
 namespace {
@@ -18,6 +19,9 @@ constexpr std::uint32_t kProgram = 1u << 0, kSectorErase = 1u << 1, kMassErase =
 /// taken to last this long.
 constexpr Cycles kLook = 10 * kCyclesPerMicrosecond;
 
+constexpr std::size_t kFirstSlot = 3;  // of the sectors of hal::RamFlash
+constexpr std::uint32_t kFirstSlotOfPart = 5;
+
 }  // namespace
 
 void FlashController::reset() {
@@ -26,6 +30,27 @@ void FlashController::reset() {
   control_ = kLock;
   first_key_ = key_lost_ = false;
   ready_ = 0;
+  show_slots();
+}
+
+FlashController::Place FlashController::place_of(std::uint32_t address) {
+  if (address < kSlotsStart) {
+    const std::uint32_t offset = address - kDataStart;
+    return {offset / kSectorBytes, offset % kSectorBytes / 4};
+  }
+  const std::uint32_t offset = address - kSlotsStart;
+  return {kFirstSlot + offset / kSlotBytes, offset % kSlotBytes / 4};
+}
+
+void FlashController::show(std::size_t slot, std::size_t word) {
+  const std::uint32_t value = words_.read(kFirstSlot + slot, word);
+  std::memcpy(&slots_[slot * kSlotBytes + 4 * word], &value, 4);
+}
+
+void FlashController::show_slots() {
+  for (std::size_t slot = 0; slot < 2; ++slot) {
+    for (std::size_t word = 0; word < kSlotBytes / 4; ++word) show(slot, word);
+  }
 }
 
 void FlashController::write_key(std::uint32_t key) {
@@ -85,23 +110,32 @@ void FlashController::write_control(std::uint32_t value) {
 }
 
 void FlashController::erase(std::uint32_t sector) {
-  if (sector < 1 || sector > 3) {
+  const bool data = sector >= 1 && sector <= 3;
+  const bool slot = sector == kFirstSlotOfPart || sector == kFirstSlotOfPart + 1;
+  if (!data && !slot) {
     throw EmulatorError("FLASH: the image erases sector " + std::to_string(sector) +
-                        "; parameters and fault log are in 1 to 3");
+                        "; parameters and fault log are in 1 to 3, images in 5 and 6");
   }
   if ((control_ & kWidth) != kBy32) {
     status_ |= kParallelism;
     return;
   }
-  ready_ = time_.now + kEraseTime;
-  words_.erase(sector - 1);
+  ready_ = time_.now + (data ? kEraseTime : kSlotEraseTime);
+  words_.erase(data ? sector - 1 : kFirstSlot + sector - kFirstSlotOfPart);
+  if (slot) show_slots();
 }
 
-std::uint32_t FlashController::read_word(std::uint32_t offset) const {
-  return words_.read(offset / kSectorBytes, offset % kSectorBytes / 4);
+std::uint32_t FlashController::read_word(std::uint32_t address) const {
+  const Place place = place_of(address);
+  return words_.read(place.sector, place.word);
 }
 
-void FlashController::program_word(std::uint32_t offset, std::uint32_t value) {
+void FlashController::put_word(std::uint32_t address, std::uint32_t value) {
+  const Place place = place_of(address);
+  if (value != hal::Nonvolatile::kErased) words_.program(place.sector, place.word, value);
+}
+
+void FlashController::program_word(std::uint32_t address, std::uint32_t value) {
   if ((control_ & kLock) != 0 || (control_ & kProgram) == 0) {
     status_ |= kSequence;
     return;
@@ -113,7 +147,9 @@ void FlashController::program_word(std::uint32_t offset, std::uint32_t value) {
   if (busy()) throw EmulatorError("FLASH: a word is written while an operation runs");
   ready_ = time_.now + kWordTime;
   // Programming can only clear bits; the part does not complain.
-  words_.program(offset / kSectorBytes, offset % kSectorBytes / 4, value & read_word(offset));
+  const Place place = place_of(address);
+  words_.program(place.sector, place.word, value & read_word(address));
+  if (place.sector >= kFirstSlot) show(place.sector - kFirstSlot, place.word);
 }
 
 }  // namespace hoof::tools::emulator

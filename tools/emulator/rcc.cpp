@@ -54,6 +54,7 @@ void Rcc::note_reset(hal::ResetCause cause) {
       status_ |= kIndependentWatchdog | kPin;
       return;
     case hal::ResetCause::kSoftware:
+    case hal::ResetCause::kRequested:  // the part does not tell one from the other
       status_ |= kSoftware | kPin;
       return;
     case hal::ResetCause::kPin:

@@ -16,6 +16,7 @@ class Section:
     content: bytes  # empty where nothing is loaded
     allocated: bool
     load_address: int
+    file_offset: int = 0
 
 
 @dataclasses.dataclass(frozen=True)
@@ -75,7 +76,7 @@ class Image:
                     load_address = p_paddr + offset - p_offset
             sections.append(Section(self._string(names + name), address, size,
                                     self._bytes[offset:offset + size] if loaded else b"",
-                                    bool(flags & 2), load_address))
+                                    bool(flags & 2), load_address, offset))
         return sections
 
     def _read_symbols(self):

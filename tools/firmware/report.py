@@ -19,6 +19,10 @@ from image import Image  # noqa: E402
 from stack_bound import EXCEPTION_FRAME, StackBound, StackError, read_frames  # noqa: E402
 
 FAULT_STACK = 512
+BOOT_FLASH = 16 * 1024  # sector 0
+BOOT_STACK = 4096  # below the application's crash record
+PACKED = (".boot", ".spare")  # in the ELF file, not of the image
+MARKS = 32  # at the end of its slot, where a header stands at its begin
 
 FORBIDDEN = [
     ("heap", r"(_?(malloc|free|calloc|realloc|memalign)(_r)?|_?sbrk(_r)?|_Zn[wa].*|_Zd[la].*)"),
@@ -62,11 +66,14 @@ class Report:
         return "within" if good else "OVER"
 
     def flash(self):
-        loaded = [s for s in self.image.loaded_sections() if s.size]
+        loaded = [s for s in self.image.loaded_sections() if s.size and s.name not in PACKED]
         print("flash")
         for section in loaded:
             print(f"  {section.name:<14}{section.size:>8,}  at 0x{section.load_address:08x}")
         total = sum(s.size for s in loaded)
+        if self.image.section(".header"):
+            print(f"  {'marks':<14}{MARKS:>8,}  at the end of the slot")
+            total += MARKS
         bound = self.arguments.flash
         print(f"  {'total':<14}{total:>8,}  of {bound:,} bytes: "
               f"{self.gate('flash', total, bound, 'bytes')}")
@@ -150,12 +157,39 @@ class Report:
                                        f"{self.image.name_of(callee)} in flash")
 
     def forbidden(self):
-        print("must not be in the image")
+        self._forbidden(self.image, "image")
+
+    def _forbidden(self, image, name):
+        print(f"must not be in the {name}")
         for what, pattern in FORBIDDEN:
-            found = sorted(s.name for s in self.image.symbols if re.fullmatch(pattern, s.name))
+            found = sorted(s.name for s in image.symbols if re.fullmatch(pattern, s.name))
             print(f"  {what:<18}{', '.join(found) if found else 'none'}")
             if found:
-                self.missed.append(f"{what} in the image: {', '.join(found)}")
+                self.missed.append(f"{what} in the {name}: {', '.join(found)}")
+
+    def boot(self):
+        """The boot loader: a program of its own, of which a part of the bounds is another."""
+        if not self.arguments.boot:
+            return
+        image = Image(self.arguments.boot)
+        code = image.code()
+        print("boot loader")
+        total = sum(s.size for s in image.loaded_sections())
+        print(f"  {'flash':<28}{total:>6,}  of {BOOT_FLASH:,} bytes: "
+              f"{self.gate('flash of the boot loader', total, BOOT_FLASH, 'bytes')}")
+        try:
+            graph = CallGraph(image, code)
+            bound = StackBound(image, code, graph, read_frames(self.arguments.build))
+            start = {s.name: s.address for s in image.functions.values()}
+            deepest, calls = bound.chain(start["hoof_boot"])
+            for address, frame in calls:
+                print(f"    {frame:>5}  {image.name_of(address)[:86]}")
+            deepest += EXCEPTION_FRAME
+            print(f"  {'stack, one fault entry':<28}{deepest:>6,}  of {BOOT_STACK:,} bytes: "
+                  f"{self.gate('stack of the boot loader', deepest, BOOT_STACK, 'bytes')}")
+        except StackError as error:
+            self.missed.append(f"stack of the boot loader: {error}")
+        self._forbidden(image, "boot loader")
 
     def files(self):
         print("files, SHA-256")
@@ -169,6 +203,7 @@ def main():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("elf")
     parser.add_argument("--build", required=True, help="folder with the compiler's .ci files")
+    parser.add_argument("--boot", help="the boot loader's ELF file")
     parser.add_argument("--bin", nargs="*", default=[], help="files to print the hash of, too")
     parser.add_argument("--flash", type=int, default=128 * 1024, help="bound in bytes")
     parser.add_argument("--ram", type=int, default=64 * 1024, help="bound in bytes")
@@ -178,7 +213,8 @@ def main():
     except (OSError, ValueError) as error:
         print(f"hoof firmware: {error}", file=sys.stderr)
         return 2
-    for part in (report.flash, report.ram, report.stack, report.forbidden, report.files):
+    for part in (report.flash, report.ram, report.stack, report.forbidden, report.boot,
+                 report.files):
         part()
     for line in report.missed:
         print(f"hoof firmware: {line}", file=sys.stderr)

@@ -68,6 +68,23 @@ Clocks start_clocks(RccRegisters& rcc, PwrRegisters& pwr, FlashRegisters& flash)
   return {};
 }
 
+bool start_internal_clock(RccRegisters& rcc, PwrRegisters& pwr, FlashRegisters& flash) {
+  rcc.APB1ENR.set(rcc::kPower);
+  rcc.APB1ENR.read();
+  pwr.CR.set(pwr::kFullVoltage);
+  if (start_pll(rcc, flash, kPllOf16MHz)) return true;
+  fall_back_to_internal(rcc);
+  return false;
+}
+
+void stop_internal_clock(RccRegisters& rcc) {
+  rcc.CFGR.write(rcc::kSwitchInternal);
+  // The PLL may not be stopped while the core runs on it.
+  hal::wait_until(kPllTries, [&rcc] { return (rcc.CFGR.read() & rcc::kSwitchedMask) == 0; });
+  rcc.CR.clear(rcc::kPllOn);
+  hal::wait_until(kPllTries, [&rcc] { return !rcc.CR.has(rcc::kPllReady); });
+}
+
 std::optional<std::uint32_t> can_bit_timing(const Clocks& clocks) {
   if (clocks.source != ClockSource::kCrystalPll) return std::nullopt;
   // SJW - 1 = 1, TS2 - 1 = 1, TS1 - 1 = 10, BRP - 1 = 2

@@ -28,6 +28,12 @@ struct Clocks {
 /// later on raises the NMI (clock security system).
 Clocks start_clocks(RccRegisters& rcc, PwrRegisters& pwr, FlashRegisters& flash);
 
+/// For the boot loader, which wants speed and no accuracy, and waits for no crystal: 168 MHz by
+/// the internal oscillator and the PLL. @return false where the PLL does not lock: 16 MHz then
+bool start_internal_clock(RccRegisters& rcc, PwrRegisters& pwr, FlashRegisters& flash);
+/// Back to 16 MHz and no PLL, from where start_clocks() begins.
+void stop_internal_clock(RccRegisters& rcc);
+
 /// BTR of a bxCAN for 1 Mbit/s, or nothing where this clock must not drive a bus.
 ///
 /// 42 MHz: BRP 3, 1 + 11 + 2 time quanta, sample point 85.7 %, SJW 2. That tolerates an oscillator

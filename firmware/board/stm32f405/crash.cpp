@@ -65,6 +65,24 @@ void panic(Panic reason) {
   close_record_and_reset();
 }
 
+void restart_on_request() {
+  asm volatile("cpsid i" ::: "memory");
+  open_record();
+  --record.count;
+  record.panic = static_cast<std::uint32_t>(Panic::kRestart);
+  close_record_and_reset();
+}
+
+bool take_restart_request() {
+  const bool requested =
+      record.whole() && record.panic == static_cast<std::uint32_t>(Panic::kRestart);
+  if (requested) {
+    record.panic = 0;
+    record.crc = crc_of(record);
+  }
+  return requested;
+}
+
 extern "C" {
 
 [[noreturn, gnu::used]] void hoof_record_fault(std::uint32_t sp) {

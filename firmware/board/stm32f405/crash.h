@@ -10,6 +10,7 @@ enum class Panic : std::uint32_t {
   kAborted = 1,  // abort(), also from the C++ library's own checks
   kPureVirtualCall = 2,
   kMainEnded = 3,
+  kRestart = 4,  // no crash: restart_on_request()
 };
 
 /// Filled in by the fault handlers, in RAM that start-up leaves alone. Whole where the CRC fits.
@@ -36,6 +37,11 @@ struct CrashRecord {
 
 /// As the last crash left it; not whole after the power was off.
 const CrashRecord& crash_record();
+
+/// Resets on purpose, and leaves a record that says so.
+[[noreturn]] void restart_on_request();
+/// Whether the last reset was that. Once: the next call denies it.
+bool take_restart_request();
 
 /// Records and resets.
 [[noreturn]] void panic(Panic reason);

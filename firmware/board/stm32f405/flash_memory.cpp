@@ -17,10 +17,11 @@ using hal::FlashResult;
 /// 100 us at most for a word; the core stalls in between, so that a look or two see the end of it.
 constexpr std::uint32_t kProgramTries = 20'000;
 
-/// The data sheet's worst is 500 ms; the watchdog's long time 1 s at least.
-constexpr std::uint32_t kLongestErase_ms = 800;
-/// Ends the wait where no tick comes. At 168 MHz a look takes some 20 cycles: 1 s.
-constexpr std::uint32_t kEraseTries = 8'000'000;
+/// Ends the wait where no tick comes: for each millisecond that it may take, at 168 MHz, where a
+/// look takes some 20 cycles.
+constexpr std::uint32_t kEraseTriesPer_ms = 10'000;
+/// An erase that may outlast the watchdog's long time feeds it this often.
+constexpr std::uint32_t kFeedPeriod_ms = 512;
 
 }  // namespace
 
@@ -39,11 +40,11 @@ FlashResult FlashMemory::program(std::size_t sector, std::size_t word, Word valu
 }
 
 FlashResult FlashMemory::erase(std::size_t sector) {
-  if (sector >= kSectors) return FlashResult::kOutOfRange;
+  if (sector >= area_.sectors) return FlashResult::kOutOfRange;
   if (!unlock()) return FlashResult::kFailed;
   const Watchdog::Time former = watchdog_.time();
   watchdog_.set(Watchdog::Time::kStart);
-  const auto number = kFirstSector + static_cast<std::uint32_t>(sector);
+  const auto number = area_.first_sector + static_cast<std::uint32_t>(sector);
   wait_for_erase(flash::kSectorErase | flash::kBy32Bits | number << flash::kSectorShift);
   const bool done = finish();
   forget_cached_data();
@@ -77,10 +78,14 @@ HOOF_IN_RAM void FlashMemory::wait_for_erase(std::uint32_t command) {
   const hal::InterruptLock lock;  // their handlers are in flash
   registers_.CR.write(command);
   registers_.CR.write(command | flash::kStart);
+  const std::uint32_t longest_ms = area_.longest_erase_ms;
+  const std::uint32_t tries = longest_ms * kEraseTriesPer_ms;
   std::uint32_t milliseconds = 0;
-  for (std::uint32_t i = 0; i < kEraseTries && milliseconds < kLongestErase_ms; ++i) {
+  for (std::uint32_t i = 0; i < tries && milliseconds < longest_ms; ++i) {
     if (!registers_.SR.has(flash::kBusy)) return;
-    if (clock_.take_pending_tick()) ++milliseconds;
+    if (!clock_.take_pending_tick()) continue;
+    ++milliseconds;
+    if (longest_ms > kFeedPeriod_ms * 2 && milliseconds % kFeedPeriod_ms == 0) watchdog_.feed();
   }
 }
 

@@ -39,9 +39,13 @@ class FootBoard final : public hal::Board {
       : rcc_(rcc), pwr_(pwr), port_(port), watchdog_(watchdog), meter_(meter), enable_(enable) {}
 
   /// Before anything else resets: takes the cause and clears it, switches on the supply's watch.
+  /// @param requested whether a reset by software was the firmware's own will and no crash
   /// @pre the power interface has its clock
-  void start() {
+  void start(bool requested = false) {
     reset_cause_ = reset_cause_of(rcc_.CSR.read());
+    if (requested && reset_cause_ == hal::ResetCause::kSoftware) {
+      reset_cause_ = hal::ResetCause::kRequested;
+    }
     rcc_.CSR.set(rcc::kClearResetFlags);
     pwr_.CR.set(pwr::kDetector2V9 | pwr::kDetectorOn);
   }

@@ -23,7 +23,8 @@ HOOF_AT_START app::ControlLoop& make_loop(stm32f405::System& system, LockStepBoa
       on_part ? app::ControlLoop::Buses{&system.bus0, &system.bus1} : told->buses();
   const hal::Clock& clock = on_part ? system.clock : told->clock();
   hal::Board& board = on_part ? static_cast<hal::Board&>(system.board) : *told;
-  static app::ControlLoop loop(buses, clock, board, parameters, &storage);
+  static app::ControlLoop loop(buses, clock, board, parameters, &storage,
+                               on_part ? &system.slots : nullptr);
   return loop;
 }
 
@@ -47,6 +48,10 @@ HOOF_AT_START LockStepBoard* board_of_emulator(stm32f405::System& system) {
 }
 
 }  // namespace
+
+/// For the image's header: which dictionary it speaks.
+extern "C" [[gnu::section(".protocol_hash"), gnu::used]] const std::uint32_t hoof_protocol_hash =
+    app::kSpokenDictionary;
 
 int main() {
   stm32f405::System& system = stm32f405::system();

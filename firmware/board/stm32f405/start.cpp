@@ -1,4 +1,4 @@
-// From reset to main(). In sector 0, beside the vectors.
+// From the boot loader to main().
 #include "firmware/board/stm32f405/crash.h"
 #include "firmware/board/stm32f405/memory.h"
 #include "firmware/board/stm32f405/peripherals.h"
@@ -18,10 +18,11 @@ HOOF_START void start_fpu() {
 }
 
 /// Faults get their own handlers; the 4 KB below the stack and the first 64 KB of the address
-/// space, where null pointers lead, may not be touched. (Vectors are fetched from 0x08000000.)
+/// space, where null pointers lead, may not be touched. (Vectors are fetched from where they are
+/// linked.)
 HOOF_START void arm_faults() {
   ScbRegisters& scb = scb_registers();
-  scb.VTOR.write(kVectors);
+  scb.VTOR.write(reinterpret_cast<std::uintptr_t>(&hoof_vectors));
   scb.CCR.set(scb::kTrapDivisionByZero);
   scb.SHCSR.set(scb::kOwnFaults);
   MpuRegisters& mpu = mpu_registers();
@@ -35,8 +36,7 @@ HOOF_START void arm_faults() {
   asm volatile("dsb\n\tisb" ::: "memory");
 }
 
-/// Loops over volatile words, so that the compiler does not make them calls to the application's
-/// part of flash.
+/// Loops over volatile words, so that the compiler does not make them calls that may want data.
 HOOF_START void fill_memory() {
   const volatile std::uint32_t* from = &hoof_data_load;
   for (volatile std::uint32_t* to = &hoof_data_start; to != &hoof_data_end; ++to) *to = *from++;

@@ -1,6 +1,7 @@
 #include "firmware/board/stm32f405/system.h"
 
 #include "firmware/board/stm32f405/can_filters.h"
+#include "firmware/board/stm32f405/crash.h"
 #include "firmware/board/stm32f405/interrupts.h"
 #include "firmware/board/stm32f405/memory.h"
 #include "firmware/board/stm32f405/peripherals.h"
@@ -17,6 +18,9 @@ System the_system{
     SystemClock(systick_registers(), scb_registers()),
     FlashMemory(flash_registers(), reinterpret_cast<hal::Register*>(kParameters),
                 the_system.watchdog, the_system.clock),
+    FlashMemory(flash_registers(), reinterpret_cast<hal::Register*>(kImages), the_system.watchdog,
+                the_system.clock, FlashMemory::kImages),
+    Slots(the_system.images),
     BoardMeter(adc1_registers(), adc_common_registers(), factory_calibration()),
     DriveEnable(timer1_registers()),
     FootBoard(rcc_registers(), pwr_registers(), port_b(), the_system.watchdog, the_system.meter,
@@ -34,6 +38,14 @@ System the_system{
 
 }  // namespace
 
+std::size_t Slots::running() const {
+  return running_slot();
+}
+
+void Slots::restart() {
+  restart_on_request();
+}
+
 System& system() {
   return the_system;
 }
@@ -41,7 +53,7 @@ System& system() {
 void System::start() {
   watchdog.start(Watchdog::Time::kStart);
   const Clocks clocks = start_clocks(rcc_registers(), pwr_registers(), flash_registers());
-  board.start();
+  board.start(take_restart_request());
   clock.start(clocks.core_Hz);
   rcc_registers().AHB1ENR.set(rcc::kPortA | rcc::kPortB | rcc::kPortC);
   rcc_registers().APB1ENR.set(rcc::kCan1 | rcc::kCan2 | rcc::kUsart2);

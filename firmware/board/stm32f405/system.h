@@ -11,16 +11,31 @@
 #include "firmware/board/stm32f405/system_clock.h"
 #include "firmware/board/stm32f405/watchdog.h"
 #include "hal/bxcan/bxcan_bus.h"
+#include "hal/image_slots.h"
 #include "hal/slcan/fallback_bus.h"
 
 namespace hoof::firmware::stm32f405 {
 
 using FootBus = hal::FallbackBus<hal::bxcan::BxCanBus, SerialBus>;
 
+/// The slots of this part, of which this image is in one.
+class Slots final : public hal::ImageSlots {
+ public:
+  explicit Slots(FlashMemory& flash) : flash_(flash) {}
+  hal::Nonvolatile& flash() override { return flash_; }
+  std::size_t running() const override;
+  void restart() override;
+
+ private:
+  FlashMemory& flash_;
+};
+
 struct System {
   Watchdog watchdog;
   SystemClock clock;
   FlashMemory flash;
+  FlashMemory images;
+  Slots slots;
   BoardMeter meter;    // ADC1
   DriveEnable enable;  // TIM1
   FootBoard board;

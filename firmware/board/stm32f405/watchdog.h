@@ -14,7 +14,7 @@ class Watchdog {
  public:
   enum class Time : std::uint8_t {
     kTick,   // 20 to 55 ms: a control cycle was not finished
-    kStart,  // 1 to 2.8 s: for the start, and for erasing a sector (0.5 s at most)
+    kStart,  // 1 to 2.8 s: for the start, and for erasing a sector of data (0.5 s at most)
   };
 
   explicit Watchdog(IwdgRegisters& registers) : registers_(registers) {}
@@ -29,7 +29,8 @@ class Watchdog {
 
   Time time() const { return time_; }
 
-  void feed() { registers_.KR.write(iwdg::kReload); }
+  /// Also from code that runs in RAM.
+  [[gnu::always_inline]] void feed() { registers_.KR.write(iwdg::kReload); }
 
  private:
   IwdgRegisters& registers_;

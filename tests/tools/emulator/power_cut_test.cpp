@@ -4,81 +4,20 @@
 #include <cstdlib>
 
 #include "firmware/app/parameters.h"
-#include "firmware/protocol/codec.h"
-#include "hal/in_process/in_process_bus.h"
-#include "hal/stepped_clock.h"
-#include "hil_bridge/service_client.h"
-#include "tools/emulator/board.h"
-#include "tools/emulator/can_wire.h"
+#include "tests/tools/emulator/powered_board.h"
 
 using namespace hoof;
 using namespace hoof::tools::emulator;
+using test::PoweredBoard;
 namespace protocol = firmware::protocol;
 
 namespace {
-
-constexpr std::int64_t kStep_ns = 500'000;
 
 std::uint8_t index_of(std::string_view name) {
   const auto* entry = firmware::app::find_parameter(name);
   REQUIRE(entry != nullptr);
   return std::uint8_t(entry - firmware::app::parameter_table().data());
 }
-
-/// The board on a wire with one tool; its flash outlives it, as real flash does a supply.
-class PoweredBoard {
- public:
-  explicit PoweredBoard(hal::RamFlash& flash)
-      : board_(image(), flash),
-        client_(
-            desk_, clock_, [this] { pass(); }, 2, kPatience_ns) {
-    board_.connect(0, wire_of(bus0_.attach("foot")));
-    board_.connect(1, wire_of(bus1_.attach("foot")));
-    board_.power_on();
-    start_ = board_.now();
-  }
-
-  bridge::ServiceClient& client() { return client_; }
-  Board& board() { return board_; }
-
-  void run_ms(int ms) {
-    for (int i = 0; i < 2 * ms; ++i) pass();
-  }
-
-  std::optional<protocol::Heartbeat> heartbeat() {
-    hal::CanFrame frame;
-    while (listener_.receive(frame)) {
-      protocol::Heartbeat h;
-      if (decode(frame, h) == protocol::DecodeResult::kOk) heartbeat_ = h;
-    }
-    return heartbeat_;
-  }
-
- private:
-  static constexpr std::int64_t kPatience_ns = 1'000'000'000;  // an erase takes 250 ms
-
-  static const ElfFile& image() {
-    static const ElfFile elf = read_elf_file(HOOF_BOARD_IMAGE);
-    return elf;
-  }
-
-  void pass() {
-    clock_.advance_to(clock_.now_ns() + kStep_ns);
-    bus0_.advance_to(clock_.now_ns());
-    bus1_.advance_to(clock_.now_ns());
-    board_.advance_to(start_ + cycles_of_ns(clock_.now_ns()));
-  }
-
-  hal::SteppedClock clock_;
-  hal::InProcessBus bus0_{{.name = "can0", .bit_rates = {}}};
-  hal::InProcessBus bus1_{{.name = "can1", .bit_rates = {}}};
-  hal::CanBus& desk_ = bus0_.attach("desk");
-  hal::CanBus& listener_ = bus0_.attach("listener");
-  Board board_;
-  bridge::ServiceClient client_;
-  Cycles start_ = 0;
-  std::optional<protocol::Heartbeat> heartbeat_;
-};
 
 constexpr float kOld = 240.0f, kNew = 260.0f, kLater = 250.0f;
 

@@ -76,7 +76,8 @@ std::optional<std::uint32_t> literal_address(std::uint32_t address, std::uint16_
 TickCostCounter::TickCostCounter(tools::emulator::Board& board)
     : board_(board), places_(kFlashBytes / 2) {
   std::vector<std::uint32_t> vectors(kVectors);
-  board_.cpu().read_memory(kFlash, vectors.data(), 4 * vectors.size());
+  board_.cpu().read_memory(board.image().address_of("hoof_vectors").value(), vectors.data(),
+                           4 * vectors.size());
   for (std::size_t i = 1; i < vectors.size(); ++i) handlers_.push_back(vectors[i] & ~1u);
   board_.cpu().observe([this](std::uint32_t address) { execute(address); });
 }
