@@ -122,9 +122,8 @@ void ParameterStore::apply(const Record& record, Parameters& parameters, LoadRep
   report.unknown = static_cast<std::uint16_t>(record.entries() - known);
 }
 
-/// Fills in all but the sequence. Not part of store(), whose frame would keep the copy of the
-/// parameters beside both records. @return false for a value out of its range
-[[gnu::noinline]] bool ParameterStore::encode(const Parameters& parameters, Record& record) const {
+/// Fills in all but the sequence. @return false for a value out of its range
+bool ParameterStore::encode(const Parameters& parameters, Record& record) const {
   Parameters copy = parameters;  // the table's accessors give references to change
   record.words[0] = kMagic;
   record.words[1] = kLayout;
