@@ -118,7 +118,8 @@ class Report:
 
     def _stack(self):
         graph = CallGraph(self.image, self.code)
-        bound = StackBound(self.image, self.code, graph, read_frames(self.arguments.build))
+        bound = StackBound(self.image, self.code, graph,
+                           read_frames(self.arguments.build, self.arguments.elf))
         start = {s.name: s.address for s in self.image.functions.values()}
         main, calls = bound.chain(start["hoof_start"])
         for address, frame in calls:
@@ -179,7 +180,8 @@ class Report:
               f"{self.gate('flash of the boot loader', total, BOOT_FLASH, 'bytes')}")
         try:
             graph = CallGraph(image, code)
-            bound = StackBound(image, code, graph, read_frames(self.arguments.build))
+            bound = StackBound(image, code, graph,
+                               read_frames(self.arguments.build, self.arguments.boot))
             start = {s.name: s.address for s in image.functions.values()}
             deepest, calls = bound.chain(start["hoof_boot"])
             for address, frame in calls:

@@ -1,6 +1,7 @@
 """The deepest stack an image can need: the compiler's frames along the longest chain of calls."""
 
 import glob
+import os
 import re
 
 # The core pushes 26 words on entry of an exception that interrupts floating point, and one more to
@@ -12,10 +13,14 @@ class StackError(Exception):
     """No bound can be given."""
 
 
-def read_frames(build_folder):
-    """Frames as the compiler states them (-fcallgraph-info=su), by mangled name."""
+def read_frames(build_folder, elf):
+    """Frames as the compiler states them (-fcallgraph-info=su), by mangled name. What was linked as
+    one (NAME.elf.ltrans...) counts for that image alone: others may be of another day."""
     frames = {}
     for path in sorted(glob.glob(f"{build_folder}/**/*.ci", recursive=True)):
+        linked, is_linked, _ = os.path.basename(path).partition(".ltrans")
+        if is_linked and linked != os.path.basename(elf):
+            continue
         with open(path, encoding="utf-8") as file:
             text = file.read()
         for title, size, kind in re.findall(
