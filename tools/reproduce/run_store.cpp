@@ -16,12 +16,15 @@ namespace hoof::tools {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* kThreads = "experiment.threads";
+/// What decides nothing of a run: how it is computed, and what is kept beside its result.
+bool decides(const std::string& key) {
+  return key != "experiment.threads" && key != "experiment.fields";
+}
 
 std::string text_of(const sim::Settings& settings, const std::string& prefix) {
   std::string text;
   for (const auto& [key, entry] : settings.entries()) {
-    if (key == kThreads || !key.starts_with(prefix)) continue;
+    if (!decides(key) || !key.starts_with(prefix)) continue;
     text += key + " = " + sim::to_text(entry.value) + "\n";
   }
   return text;
@@ -35,7 +38,7 @@ std::string difference(const sim::Settings& a, const sim::Settings& b) {
   };
   for (const sim::Settings* settings : {&a, &b}) {
     for (const auto& [key, entry] : settings->entries()) {
-      if (key != kThreads && text(a, key) != text(b, key)) {
+      if (decides(key) && text(a, key) != text(b, key)) {
         return key + " is " + text(a, key) + " there and " + text(b, key) + " now";
       }
     }

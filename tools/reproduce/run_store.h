@@ -12,7 +12,8 @@
 
 namespace hoof::tools {
 
-/// SHA-256 of what decides a run's result: every setting but the number of threads.
+/// SHA-256 of what decides a run's result: every setting but the number of threads and
+/// what is kept of the fields.
 std::string settings_hash(const sim::Settings& settings);
 /// The same of a foot's shape and mass alone.
 std::string geometry_hash(const sim::Settings& settings);
