@@ -33,6 +33,7 @@ struct EmulateOptions {
   std::string image;
   std::string flash;
   std::vector<std::string> settings;  // name=value
+  double supply_V = 0;                // 0: nothing is wired
 };
 
 /// A board that is later than this behind the wall's clock missed its tick.
@@ -88,9 +89,10 @@ hal::SocketCanSettings connection(const std::string& interface, std::size_t bus)
 class WallClockBoard {
  public:
   WallClockBoard(const ElfFile& image, hal::RamFlash& flash, const std::string& bus0,
-                 const std::string& bus1)
+                 const std::string& bus1, double supply_V)
       : sockets_{hal::SocketCanBus(connection(bus0, 0)), hal::SocketCanBus(connection(bus1, 1))},
         board_(image, flash) {
+    board_.set_voltages({.supply_V = supply_V});
     board_.power_on();
     for (std::size_t bus = 0; bus < Board::kBuses; ++bus) {
       board_.connect(bus, wire_of(sockets_[bus]));
@@ -151,7 +153,8 @@ void run(const EmulateOptions& options) {
   const std::size_t comma = options.buses.find(',');
   const std::string bus0 = options.buses.substr(0, comma);
   WallClockBoard board(image, flash, bus0,
-                       comma == std::string::npos ? bus0 : options.buses.substr(comma + 1));
+                       comma == std::string::npos ? bus0 : options.buses.substr(comma + 1),
+                       options.supply_V);
   std::cerr << "hoof-emulate: image sha256 " << tools::sha256_hex_of_file(file) << " runs on "
             << options.buses << "; Ctrl-C takes its power\n";
   board.run();
@@ -171,9 +174,12 @@ int main(int argc, char** argv) {
   app.add_option("--flash", options.flash,
                  "file with the board's data sectors; made where missing, written at the end");
   app.add_option("--set", options.settings, "parameter as name=value, stored in its flash first");
+  app.add_option("--supply-V", options.supply_V,
+                 "voltage at the board's divider; below 36 the foot stops [0: nothing is wired]")
+      ->check(CLI::Range(0.0, 60.0));
   app.footer(
       "Examples:\n"
-      "  tools/hoof firmware emulate --bus vcan0 --set leg_present=0\n"
+      "  tools/hoof firmware emulate --bus vcan0 --set leg_present=0 --supply-V 48\n"
       "  tools/hoof bridge --bus vcan0 --clock real-time --terrain rigid --experiment sinkage");
   try {
     app.parse(argc, argv);

@@ -86,7 +86,7 @@ class FootBoard final : public hal::Board {
   DriveEnable& enable_;
   hal::ResetCause reset_cause_ = hal::ResetCause::kPowerOn;
   std::uint32_t time_ns_ = 0;  // modulo 2^32
-  std::uint32_t turns_ = 0;  // since the clock moved
+  std::uint32_t turns_ = 0;    // since the clock moved
 };
 
 }  // namespace hoof::firmware::stm32f405
