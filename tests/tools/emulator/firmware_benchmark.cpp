@@ -92,7 +92,7 @@ void print_cost(const char* kind, const test::CostSummary& c) {
       static_cast<unsigned long long>(c.planning_ticks), c.mean_planning_instructions,
       us(c.mean_planning_cycles));
   const auto print = [](const char* what, const char* name, const test::MeanAndMost& m) {
-    std::printf("  {\"%s\": \"%s\", \"mean_instructions\": %.0f, \"most_instructions\": %llu}\n",
+    std::printf("  {\"%s\": \"%s\", \"mean_instructions\": %.1f, \"most_instructions\": %llu}\n",
                 what, name, m.mean, static_cast<unsigned long long>(m.most));
   };
   for (std::size_t i = 0; i < test::kStages; ++i) {

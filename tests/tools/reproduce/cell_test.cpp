@@ -84,6 +84,7 @@ TEST_CASE("a campaign's hashes: threads change nothing, a setting does, a foot i
   const std::string plain = hash({});
   CHECK(plain.size() == 64);
   CHECK(hash({"experiment.threads=7"}) == plain);
+  CHECK(hash({"experiment.fields=none"}) == plain);
   CHECK(hash({"experiment.seed=2"}) != plain);
   CHECK(hash({"bed.depth_mm=110"}) != plain);
   const auto geometry = [](std::vector<std::string> more) {
