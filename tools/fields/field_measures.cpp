@@ -139,16 +139,35 @@ Json chains(const FieldScene& scene) {
           {"strong_share_of_force_ratio", c.strong_share}};
 }
 
+/// Of the gaps in the plan along y, over where there is one.
+double gap_width_m(const FieldScene& scene) {
+  const Eigen::AlignedBox3d& region = scene.setting.region_m;
+  constexpr double kCell_m = Footprint::kCell_m;
+  int gaps = 0;
+  for (double x_m = region.min().x() + kCell_m / 2; x_m < region.max().x(); x_m += kCell_m) {
+    bool in_gap = false;
+    for (double y_m = region.min().y() + kCell_m / 2; y_m < region.max().y(); y_m += kCell_m) {
+      const bool is_gap = scene.plan.at(x_m, y_m) == Footprint::kGap;
+      gaps += is_gap && !in_gap;
+      in_gap = is_gap;
+    }
+  }
+  return gaps > 0 ? scene.plan.gap_area_m2() / (gaps * kCell_m) : 0;
+}
+
 Json arch(const FieldScene& scene, const FieldScene& contact) {
   const ArchBridge bridge = arch_bridge(scene);
   const StressBulb bulb = stress_bulb(scene, contact);
   const double d50_m = scene.setting.d50_m;
   Json j;
+  const double width_m = gap_width_m(scene);
   j["gap_area_m2"] = bridge.gap_area_m2;
+  j["gap_mean_width_m"] = width_m;
   j["paths"] = bridge.paths;
   j["path_force_N"] = bridge.force_N;
   // What the gap bears against what the foot's plan bears, 1 to 2 d50 below: layers of d50 / 2.
-  const bool both = bulb.gap_share.size() >= 4;
+  // A gap narrower than a grain has no sand of its own.
+  const bool both = bulb.gap_share.size() >= 4 && width_m >= d50_m;
   const double under = both ? bulb.share[2] + bulb.share[3] : 0;
   j["gap_over_foot_stress_ratio"] =
       both && under > 0 ? Json((bulb.gap_share[2] + bulb.gap_share[3]) / under) : Json(nullptr);
@@ -202,7 +221,7 @@ Json field_headline(const Json& moment) {
       {"stress", {"bulb_depth_m"}},
       {"force_chains", {"strong_contacts", "strong_share_of_force_ratio"}},
       {"arch",
-       {"gap_area_m2", "paths", "path_force_N", "gap_over_foot_stress_ratio",
+       {"gap_area_m2", "gap_mean_width_m", "paths", "path_force_N", "gap_over_foot_stress_ratio",
         "support_area_over_plan_ratio"}}};
   for (const auto& [group, keys] : kShown) {
     for (const char* key : keys) j[key] = moment[group][key];

@@ -40,6 +40,7 @@ constexpr Row kRows[] = {
     {"/stress/share_at_floor_ratio", "added stress at the floor over load / plan"},
     {"/force_chains/strong_share_of_force_ratio", "share of force in contacts above the mean"},
     {"/arch/gap_area_m2", "gap between the toes and the middle, plan"},
+    {"/arch/gap_mean_width_m", "mean width of the gap"},
     {"/arch/paths", "strong chains of grains over the gap"},
     {"/arch/path_force_N", "force they could pass on"},
     {"/arch/gap_over_foot_stress_ratio",

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <limits>
 
 #include "sim/terrain/random.h"
@@ -74,6 +75,17 @@ TEST_CASE("strong chains over a gap are counted, weak and broken ones are not") 
   add_chain(made, -0.01, kWeak_m);
   add_chain(made, 0.00, kStrong_m, 2);  // its last contact is missing
   add_chain(made, 0.01, kStrong_m);
+  // A strong one whose middle grain lies beside the boxes' ends, out of the gap.
+  const double pitch_m = 4e-3 - kStrong_m, out_m = std::sqrt(pitch_m * pitch_m - 6.25e-6);
+  std::uint32_t last = 0;
+  for (const Eigen::Vector2d& p :
+       {Eigen::Vector2d(0, -2.5e-3 - pitch_m), Eigen::Vector2d(0, -2.5e-3),
+        Eigen::Vector2d(out_m, 0), Eigen::Vector2d(0, 2.5e-3),
+        Eigen::Vector2d(0, 2.5e-3 + pitch_m)}) {
+    const auto id = made.grain({0.0275 + p.x(), p.y(), -4e-3});
+    if (p.y() > -2.5e-3 - pitch_m) made.contact(last, id);
+    last = id;
+  }
   // Others that are weak, so that the mean lies between.
   for (double x_m = -0.028; x_m < 0.03; x_m += 0.009) {
     made.contact(made.grain({x_m, 0.015, -4e-3}), made.grain({x_m, 0.018999, -4e-3}));

@@ -103,6 +103,8 @@ TEST_CASE("a mirror changes no measure but the sign of what goes forward") {
     ++compared;
   }
   CHECK(compared > 60);
+  CHECK(a["/arch/gap_mean_width_m"] == Approx(0.010));
+  CHECK(a["/arch/gap_area_m2"] == Approx(0.060 * 0.010));
 }
 
 TEST_CASE("the measures of a moment have no value that is not a number") {
