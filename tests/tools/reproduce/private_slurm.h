@@ -98,7 +98,7 @@ class PrivateSlurm {
   std::string settings() const {
     const std::string dir = folder_.path().string(), host = said("hostname -s"),
                       user = said("id -un");
-    const int port = 20000 + int(getpid() % 20000);  // two tests at once
+    const int port = 20000 + 2 * int(getpid() % 10000);  // two of each; tests run side by side
     return "ClusterName=hoof\nSlurmctldHost=" + host + "(127.0.0.1)\nSlurmUser=" + user +
            "\nSlurmdUser=" + user +
            "\nAuthType=auth/none\nCredType=cred/none\nDependencyParameters=kill_invalid_depend\n"

@@ -67,6 +67,16 @@ struct ThrownAway {
   }
 };
 
+/// A run is past its start, in the hidden folder that it grows in: it listens to signals.
+bool records(const fs::path& cells) {
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(cells, none)) {
+    const bool hidden = entry.path().filename().string().front() == '.';
+    if (hidden && fs::exists(entry.path() / "samples.csv", none)) return true;
+  }
+  return false;
+}
+
 /// How often a run was tried, by its own account.
 int tries(const fs::path& out, const std::string& id) {
   return tools::RunStore(out).attempt(id).value_or(tools::Attempt{}).tries;
@@ -159,11 +169,11 @@ TEST_CASE("slurm: a job told that its time is over stops with a checkpoint, the 
   if (skipped()) return;
   const ScratchFolder scratch;
   const fs::path out = scratch.path() / "grains";
-  // Some 1,700 grains and a bed that nobody has made.
+  // Some 3,000 grains and a bed that nobody has made.
   const std::string seed = std::to_string(900000 + getpid() % 90000);
   const ThrownAway bed{"-" + seed + "-"};
   std::vector<std::string> small = {"--terrain", "dem", "--seed", seed};
-  for (const char* setting : {"bed.box_length_mm=240", "bed.box_width_mm=200", "bed.depth_mm=50",
+  for (const char* setting : {"bed.box_length_mm=240", "bed.box_width_mm=200", "bed.depth_mm=93",
                               "experiment.time_limit_s=0.06"}) {
     small.insert(small.end(), {"--set", setting});
   }
@@ -181,11 +191,13 @@ TEST_CASE("slurm: a job told that its time is over stops with a checkpoint, the 
   CHECK(submissions(out)[0]["beds"] == true);
   CHECK(submissions(out)[0]["runs"].size() == 1);
   const std::string first = submissions(out)[1]["runs"][0];
-  while (!fs::exists(out / "cells" / (first + ".resume"))) PrivateSlurm::pause_ms(2);
-  PrivateSlurm::pause_ms(100);
+  while (!records(out / "cells")) PrivateSlurm::pause_ms(2);
   const std::string job = submissions(out).back()["job"];
-  // As Slurm sends it --stop-ahead seconds before the limit: to the batch shell alone.
-  REQUIRE(PrivateSlurm::run("scancel --batch --signal=USR1 " + job + "_0") == 0);
+  // As Slurm sends it --stop-ahead seconds before the limit: to the batch shell, whose place hoof
+  // has taken.
+  const std::string where = tools::RunStore(out).attempt(first)->where;
+  INFO(where);
+  REQUIRE(kill(std::stoi(where.substr(where.find("process ") + 8)), SIGUSR1) == 0);
   PrivateSlurm::run("scancel --state=PENDING " + job);
   slurm.until_empty();
   const auto attempt = tools::RunStore(out).attempt(first);
