@@ -74,8 +74,12 @@ struct Run {
                double start_m = 0.1) {
     ground = std::make_unique<JournaledTerrain>(
         std::make_unique<Oscillator>(counts),
-        JournalSettings{folder, key, every_s,
-                        [this](const std::string& text) { notes.push_back(text); }});
+        JournalSettings{folder,
+                        key,
+                        every_s,
+                        [this](const std::string& text) { notes.push_back(text); },
+                        {},
+                        {}});
     for (BodyMotion& motion : motions) {
       motion.end.p_WB_m.z() = start_m;
       ground->add_body({}, motion.end);
@@ -177,7 +181,10 @@ TEST_CASE("what others saw is kept with a checkpoint and given back once, when i
     fs::remove_all(folder.path());
     fs::create_directory(folder.path());
     const auto ground = [&](Counts& counts, std::vector<std::string>& again) {
-      JournalSettings settings{folder.path(), kKey, 0, {}};
+      JournalSettings settings;
+      settings.folder = folder.path();
+      settings.key = kKey;
+      settings.checkpoint_every_s = 0;
       settings.seen = [&saw] { return saw; };
       settings.see_again = [&again](std::string_view bytes) { again.emplace_back(bytes); };
       return JournaledTerrain(std::make_unique<Oscillator>(counts), settings);
