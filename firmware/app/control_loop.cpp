@@ -179,7 +179,9 @@ void ControlLoop::answer_services(std::int64_t now_ns) {
   }
 }
 
+/// As a rule there is nothing to watch, and a poll costs.
 void ControlLoop::watch_update(std::int64_t now_ns) {
+  if (!update_.watches()) return;
   Health health;
   const Mode mode = controller_.mode();
   health.idle = mode == Mode::kOff || mode == Mode::kFault || mode == Mode::kEmergencyOff;

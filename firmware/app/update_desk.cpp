@@ -126,7 +126,7 @@ protocol::ServiceResult UpdateDesk::finish() {
 protocol::ServiceResult UpdateDesk::restart() {
   if (state_ != State::kComplete) return Result::kNothingThere;
   restart_ = true;
-  restart_ns_ = now_ns_ + kBeforeRestart_ns;
+  restart_ns_ = -1;
   return Result::kDone;
 }
 
@@ -189,6 +189,7 @@ void UpdateDesk::poll(std::int64_t now_ns, const Health& health) {
     restart_ = true;
     restart_ns_ = now_ns;
   }
+  if (restart_ && restart_ns_ < 0) restart_ns_ = now_ns + kBeforeRestart_ns;
   if (!restart_ || now_ns < restart_ns_ || !health.idle) return;
   restart_ = trial_ = false;
   board_->restart();

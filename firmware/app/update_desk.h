@@ -57,6 +57,8 @@ class UpdateDesk {
   /// Nothing where it is not of the update's.
   std::optional<std::uint32_t> status(protocol::Status what) const;
 
+  /// Whether poll() has anything to do.
+  bool watches() const { return trial_ || restart_; }
   /// At every poll: the trial's time, a restart that is due.
   void poll(std::int64_t now_ns, const Health& health);
   bool restart_pending() const { return restart_; }
@@ -92,7 +94,7 @@ class UpdateDesk {
   bool trial_ = false;
   std::int64_t started_ns_ = -1;
   std::int64_t now_ns_ = 0;
-  std::int64_t restart_ns_ = 0;
+  std::int64_t restart_ns_ = -1;  // not yet known
   Health health_;
 };
 

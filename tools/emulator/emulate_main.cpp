@@ -46,20 +46,56 @@ std::string built_image() {
   return (build / "stm32f405" / "hoof-stm32f405.elf").string();
 }
 
-void copy_words(const hal::Nonvolatile& from, hal::Nonvolatile& to) {
-  for (std::size_t sector = 0; sector < from.sector_count(); ++sector) {
-    bool same = true;
-    for (std::size_t word = 0; word < from.sector_words(sector); ++word) {
-      same = same && from.read(sector, word) == to.read(sector, word);
-    }
-    if (same) continue;
-    to.erase(sector);
-    for (std::size_t word = 0; word < from.sector_words(sector); ++word) {
-      const hal::Nonvolatile::Word value = from.read(sector, word);
-      if (value != hal::Nonvolatile::kErased) to.program(sector, word, value);
+/// The file has sectors of one size, the larger ones of the board in pieces of it.
+class KeptFlash {
+ public:
+  KeptFlash(const std::string& path, const hal::RamFlash& like)
+      : file_(path, pieces(like), kPieceWords) {}
+
+  void read_into(hal::RamFlash& blank) const {
+    for_each_piece(blank, [&](std::size_t piece, std::size_t sector, std::size_t first) {
+      for (std::size_t i = 0; i < kPieceWords; ++i) {
+        const hal::Nonvolatile::Word word = file_.read(piece, i);
+        if (word != hal::Nonvolatile::kErased) blank.program(sector, first + i, word);
+      }
+    });
+  }
+
+  void write(const hal::RamFlash& flash) {
+    for_each_piece(flash, [&](std::size_t piece, std::size_t sector, std::size_t first) {
+      bool same = true;
+      for (std::size_t i = 0; i < kPieceWords; ++i) {
+        same = same && file_.read(piece, i) == flash.read(sector, first + i);
+      }
+      if (same) return;
+      file_.erase(piece);
+      for (std::size_t i = 0; i < kPieceWords; ++i) {
+        const hal::Nonvolatile::Word word = flash.read(sector, first + i);
+        if (word != hal::Nonvolatile::kErased) file_.program(piece, i, word);
+      }
+    });
+  }
+
+ private:
+  static constexpr std::size_t kPieceWords = FlashController::kSectorBytes / 4;
+
+  template <typename Visit>
+  static void for_each_piece(const hal::RamFlash& flash, Visit visit) {
+    std::size_t piece = 0;
+    for (std::size_t sector = 0; sector < flash.sector_count(); ++sector) {
+      for (std::size_t first = 0; first < flash.sector_words(sector); first += kPieceWords) {
+        visit(piece++, sector, first);
+      }
     }
   }
-}
+  static std::size_t pieces(const hal::RamFlash& flash) {
+    std::size_t count = 0;
+    for_each_piece(flash, [&count](std::size_t, std::size_t, std::size_t) { ++count; });
+    return count;
+  }
+
+  hal::FileFlash file_;
+};
 
 /// As the service would that stores parameters.
 void store_settings(const std::vector<std::string>& settings, hal::RamFlash& flash) {
@@ -144,10 +180,10 @@ void run(const EmulateOptions& options) {
   const std::string file = options.image.empty() ? built_image() : options.image;
   const ElfFile image = read_elf_file(file);
   hal::RamFlash flash = blank_flash();
-  std::optional<hal::FileFlash> kept;
+  std::optional<KeptFlash> kept;
   if (!options.flash.empty()) {
-    kept.emplace(options.flash, flash.sector_count(), flash.sector_words(0));
-    copy_words(*kept, flash);
+    kept.emplace(options.flash, flash);
+    kept->read_into(flash);
   }
   store_settings(options.settings, flash);
   const std::size_t comma = options.buses.find(',');
@@ -158,7 +194,7 @@ void run(const EmulateOptions& options) {
   std::cerr << "hoof-emulate: image sha256 " << tools::sha256_hex_of_file(file) << " runs on "
             << options.buses << "; Ctrl-C takes its power\n";
   board.run();
-  if (kept) copy_words(flash, *kept);
+  if (kept) kept->write(flash);
   board.report();
 }
 
@@ -171,8 +207,10 @@ int main(int argc, char** argv) {
   app.add_option("--bus", options.buses, "interface of bus 0, or of bus 0 and bus 1: can0,can1")
       ->required();
   app.add_option("--image", options.image, "ELF file [the one of `hoof firmware build`]");
-  app.add_option("--flash", options.flash,
-                 "file with the board's data sectors; made where missing, written at the end");
+  app.add_option(
+      "--flash", options.flash,
+      "file with the board's data sectors and image slots; made where missing, written at "
+      "the end; what was updated into it runs in place of the image");
   app.add_option("--set", options.settings, "parameter as name=value, stored in its flash first");
   app.add_option("--supply-V", options.supply_V,
                  "voltage at the board's divider; below 36 the foot stops [0: nothing is wired]")

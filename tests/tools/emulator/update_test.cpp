@@ -185,13 +185,17 @@ TEST_CASE("update on the board: the supply fails in the boot loader; something s
 TEST_CASE("update on the board: an image that hangs or crashes at once is tried three times") {
   const bool hangs = GENERATE(true, false);
   CAPTURE(hangs);
-  // b .   or   an undefined instruction
-  hal::RamFlash flash = flash_with_b(
-      image_b(2, [&](std::vector<Word>& words) { start_with(words, hangs ? 0xE7FE : 0xDE00); }));
+  hal::RamFlash flash = blank_flash();
   PoweredBoard foot(flash);
+  foot.run_ms(20);
+  // b .   or   an undefined instruction
+  test::write_image(flash, kSlotB, image_b(2, [&](std::vector<Word>& words) {
+                      start_with(words, hangs ? 0xE7FE : 0xDE00);
+                    }));
+  foot.board().reset(hal::ResetCause::kPin);
   foot.run_ms(200);
   CHECK(reaches(foot, 0, 10'000));
-  CHECK(foot.board().resets() == 3);
+  CHECK(foot.board().resets() == 1 + 3);
   CHECK(ImageSlot(flash, kSlotB).refusal() == Problem::kNotConfirmed);
   foot.run_ms(300);
   REQUIRE(foot.heartbeat());

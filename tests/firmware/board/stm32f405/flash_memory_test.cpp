@@ -106,6 +106,23 @@ TEST_CASE("flash: time goes on during an erase") {
   CHECK(passed_ms == Approx(500).margin(1.1));  // a tick at either end
 }
 
+TEST_CASE("flash: an image's sector may take two seconds, in which the watchdog is fed") {
+  SimulatedFlash sim;
+  FlashMemory images(sim.registers, sim.words.data(), sim.watchdog, sim.clock,
+                     FlashMemory::kImages);
+  CHECK(images.sector_count() == 2);
+  CHECK(images.sector_words(1) == 32'768);
+  CHECK(images.sector_words(2) == 0);
+  sim.erase_ms = 2000;
+  CHECK(images.erase(1) == FlashResult::kOk);
+  CHECK(sim.erased_sectors == std::vector<int>{6});
+  // At least every 512 ms of the long time, which is 1 s at the fastest.
+  CHECK(sim.watchdog_log == std::vector<std::string>{"reload 734", "feed", "feed", "feed", "feed",
+                                                     "reload 234", "feed"});
+  sim.never_done = true;
+  CHECK(images.erase(0) == FlashResult::kFailed);
+}
+
 TEST_CASE("flash: an erase that never ends is given up, by the clock or by counting") {
   SimulatedFlash sim;
   sim.never_done = true;

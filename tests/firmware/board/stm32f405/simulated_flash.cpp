@@ -78,7 +78,9 @@ std::uint32_t SimulatedFlash::read_status() {
       erased_sectors.push_back(erasing_);
       registers.SR.store((registers.SR.stored() & ~flash::kBusy) | next_error);
       const auto first = static_cast<std::size_t>(erasing_ - 1) * FlashMemory::kSectorWords;
-      for (std::size_t i = 0; next_error == 0 && i < FlashMemory::kSectorWords; ++i) {
+      // Sectors of images have no words here.
+      const bool data = first < words.size();
+      for (std::size_t i = 0; data && next_error == 0 && i < FlashMemory::kSectorWords; ++i) {
         words[first + i].store(0xFFFF'FFFF);
       }
       next_error = 0;
