@@ -7,6 +7,7 @@
 
 #include "hil_bridge/lock_step.h"
 #include "hil_bridge/remote_foot.h"
+#include "hil_bridge/remote_line.h"
 #include "tools/experiment/run_settings.h"
 
 namespace hoof::benchmarks {
