@@ -52,10 +52,10 @@ class FootBoard final : public hal::Board {
 
   /// Once per turn of the main loop. Every time-out of this firmware needs a clock that goes on: on
   /// one that stands, SYNC alone would keep the loop, and the watchdog, going.
-  void note_time(std::int64_t now_ns) {
-    const auto low_ns = static_cast<std::uint32_t>(now_ns);
-    turns_ = low_ns == time_ns_ ? turns_ + 1 : 0;
-    time_ns_ = low_ns;
+  /// @param stamp of the clock
+  void note_time(std::uint32_t stamp) {
+    turns_ = stamp == stamp_ ? turns_ + 1 : 0;
+    stamp_ = stamp;
   }
 
   hal::ResetCause reset_cause() const override { return reset_cause_; }
@@ -85,8 +85,8 @@ class FootBoard final : public hal::Board {
   const BoardMeter& meter_;
   DriveEnable& enable_;
   hal::ResetCause reset_cause_ = hal::ResetCause::kPowerOn;
-  std::uint32_t time_ns_ = 0;  // modulo 2^32
-  std::uint32_t turns_ = 0;    // since the clock moved
+  std::uint32_t stamp_ = 0;
+  std::uint32_t turns_ = 0;  // since the clock moved
 };
 
 }  // namespace hoof::firmware::stm32f405

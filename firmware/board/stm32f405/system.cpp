@@ -74,10 +74,10 @@ void System::start() {
 }
 
 void System::rest(bool for_room) {
-  const std::int64_t now_ns = clock.now_ns();
-  board.note_time(now_ns);
+  board.note_time(clock.stamp());
   if (watch) {
     watch = false;
+    const std::int64_t now_ns = clock.now_ns();
     can0.maintain(now_ns);
     can1.maintain(now_ns);
     meter.maintain(now_ns);

@@ -44,6 +44,10 @@ class SystemClock final : public hal::Clock {
 
   std::int64_t now_ns() const override;
 
+  /// Another value whenever a cycle of the core has gone by, for 256 ms; the same while the counter
+  /// stands. Costs a few instructions, now_ns() some fifty.
+  std::uint32_t stamp() const { return (low_ << 24) | systick_.CVR.read(); }
+
  private:
   SysTickRegisters& systick_;
   ScbRegisters& scb_;

@@ -109,7 +109,7 @@ TEST_CASE("board: a watchdog is not fed by a loop whose clock stands") {
   std::int64_t now_ns = 5;
   const auto turn = [&] {
     rig.board.feed_watchdog();
-    rig.board.note_time(now_ns);
+    rig.board.note_time(std::uint32_t(now_ns));
   };
   for (int i = 0; i < 1000; ++i, now_ns += 6) turn();  // a cycle of the core goes by
   CHECK(fed == 1000);

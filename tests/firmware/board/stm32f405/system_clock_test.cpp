@@ -115,6 +115,19 @@ TEST_CASE("clock: random readings never go back and lie between begin and end of
   }
 }
 
+TEST_CASE("clock: a stamp changes with each cycle and at the same place of each millisecond") {
+  SimulatedTick sim(168'000'000);
+  sim.access_cost = [] { return 0u; };
+  std::uint32_t last = sim.clock.stamp();
+  CHECK(sim.clock.stamp() == last);  // nothing has passed
+  for (int i = 0; i < 1'000; ++i) {
+    sim.pass(i % 2 == 0 ? 1 : 168'000);
+    CAPTURE(i);
+    REQUIRE(sim.clock.stamp() != last);
+    last = sim.clock.stamp();
+  }
+}
+
 TEST_CASE("clock: the millisecond count passes 2^32, after 49 days") {
   const std::uint64_t first_ms = (1ull << 32) - 3;
   SimulatedTick sim(16'000'000, first_ms);
