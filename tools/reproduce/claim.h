@@ -29,8 +29,6 @@ struct Claim {
 
 /// "30-best" first.
 const std::vector<Claim>& paper_claims();
-/// What the paper claims and this campaign has no measure of, in a line each.
-const std::vector<std::string>& unmeasured_claims();
 
 /// What the runs of one variation say of one contrast.
 struct Evidence {

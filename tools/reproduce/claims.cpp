@@ -52,7 +52,6 @@ class Inquiry {
     const std::vector<JudgedClaim> claims = judged(campaign);
     write_claims(out, claims, used_);
     std::cout << claims_text(claims);
-    for (const std::string& line : unmeasured_claims()) std::cout << "not judged: " << line << "\n";
     if (end.queued > 0) {
       std::cout << end.queued << " runs are in the cluster's queue or under way\n";
     }
@@ -189,7 +188,6 @@ void list_claims() {
   for (const Claim& claim : paper_claims()) {
     std::printf("%-18s %s\n", claim.name.c_str(), claim.statement.c_str());
   }
-  for (const std::string& line : unmeasured_claims()) std::printf("not judged: %s\n", line.c_str());
   std::printf("variations (of the bed demo):\n");
   for (const Variation& v : claim_variations({})) {
     std::printf("%-18s %s: %s\n", v.name.c_str(), v.kind.c_str(), v.what.c_str());

@@ -171,7 +171,6 @@ std::string page(const std::vector<JudgedClaim>& claims,
               "<figure>" + drawing(j, i) + "</figure>\n";
     }
   }
-  for (const std::string& line : unmeasured_claims()) body += element("p", "Not judged: " + line);
   return make_page("The paper's claims", body, "{}");
 }
 
@@ -239,7 +238,6 @@ void write_claims(const fs::path& folder, const std::vector<JudgedClaim>& claims
     j["variations"].push_back({{"name", v->name}, {"kind", v->kind}, {"what", v->what}});
   }
   for (const JudgedClaim& claim : claims) j["claims"].push_back(json_of(claim));
-  j["not_judged"] = unmeasured_claims();
   const auto replace = [&](const std::string& name, const std::string& text) {
     const fs::path partial = folder / (name + ".partial");
     write_file(partial, text);

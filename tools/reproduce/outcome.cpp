@@ -43,6 +43,18 @@ ForceTrace read_trace(const fs::path& samples) {
   return trace;
 }
 
+void read_sand(const nlohmann::json& result, Outcome& o) {
+  const auto none = nlohmann::json::object();
+  const auto moment = result.value("fields", none).value("greatest_depth", none);
+  const auto number = [&](const char* key) {  // null: the moment does not tell it
+    return moment.contains(key) && moment[key].is_number() ? moment[key].get<double>()
+                                                           : Outcome::kNone;
+  };
+  o.high_pressure_share = number("high_pressure_share_ratio");
+  o.support_area_ratio = number("support_area_over_plan_ratio");
+  o.gap_stress_ratio = number("gap_over_foot_stress_ratio");
+}
+
 }  // namespace
 
 void find_timing(Outcome& o) {
@@ -78,6 +90,7 @@ Outcome read_outcome(bool traction, const fs::path& folder) {
     }
     if (!traction) {
       o.sinkage_mm = 1e3 * j.at("max_depth_m").get<double>();
+      read_sand(j, o);
       return o;
     }
     o.fx_peak_N = j.at("fx_peak_N"), o.fz_at_fx_peak_N = j.at("fz_at_fx_peak_N");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -18,6 +19,10 @@ struct ForceTrace {
 /// Of the other kind: zero.
 struct Outcome {
   double sinkage_mm = 0;  // largest displacement since first contact, spines count
+  /// Of the sand at the greatest depth (tools/fields), NaN where a run kept none of it: the share
+  /// of the plantar area with high pressure; the area of sand that carries over that of the foot;
+  /// the stress under the gap between the toes over that under the foot.
+  double high_pressure_share = kNone, support_area_ratio = kNone, gap_stress_ratio = kNone;
   double fx_peak_N = 0, fz_at_fx_peak_N = 0;  // at that instant
   double coefficient = 0;
   double fx_peak_s = 0;  // since first contact
@@ -28,6 +33,7 @@ struct Outcome {
   ForceTrace trace = {};
 
   static constexpr double kEarly = 0.05;
+  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// By condition, then by bed.

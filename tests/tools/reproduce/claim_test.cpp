@@ -84,6 +84,29 @@ TEST_CASE("a claim holds where each interval excludes the bound, paired on the b
   CHECK(find(best, {}) == Finding::kNotRun);
 }
 
+TEST_CASE(
+    "claims of the sand: pressure and arch by what runs kept, nothing by runs that kept none") {
+  Outcomes outcomes = openings({13.0, 11.73, 11.5, 11.0, 11.65}, 0.002);
+  CHECK(find(claim("pressure-falls"), outcomes) == Finding::kNotRun);
+  CHECK(find(claim("arch-at-30"), outcomes) == Finding::kNotRun);
+  const auto set = [&](int deg, double share, double area, double gap) {
+    for (auto& [bed, run] :
+         outcomes.at("sinkage-bionic-toe" + std::to_string(deg) + "-60kg-0.1m_s")) {
+      run.high_pressure_share = share, run.support_area_ratio = area + 0.001 * bed;
+      run.gap_stress_ratio = gap + 0.001 * bed;
+    }
+  };
+  set(0, 0.32, 0.5, Outcome::kNone), set(20, 0.3, 0.5, 0.2), set(30, 0.24, 0.6, 0.3);
+  set(40, 0.3, 0.5, 0.1);
+  CHECK(find(claim("pressure-falls"), outcomes) == Finding::kHolds);
+  CHECK(find(claim("arch-at-30"), outcomes) == Finding::kHolds);
+  set(40, 0.3, 0.5, 0.4);  // it carries more at 40 degrees
+  CHECK(find(claim("arch-at-30"), outcomes) == Finding::kFails);
+  set(40, 0.3, 0.5, 0.1), set(30, 0.33, 0.45, 0.3);  // less sand carries, more pressure is high
+  CHECK(find(claim("arch-at-30"), outcomes) == Finding::kFails);
+  CHECK(find(claim("pressure-falls"), outcomes) == Finding::kFails);
+}
+
 TEST_CASE("claims upward and by a bound that is not one") {
   const Claim& raise = claim("spines-raise-T");
   Outcomes outcomes;

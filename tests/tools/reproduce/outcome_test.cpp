@@ -71,5 +71,14 @@ TEST_CASE("an outcome is read from a run's folder: time counts from first contac
   CHECK(o.refused.size() == 1);
   write_file(scratch.path() / "result.json", "{\"max_depth_m\": 0.0125}");
   CHECK(read_outcome(false, scratch.path()).sinkage_mm == Approx(12.5));
+  CHECK(std::isnan(read_outcome(false, scratch.path()).support_area_ratio));  // of a run without
+  write_file(scratch.path() / "result.json",
+             "{\"max_depth_m\": 0.0125, \"fields\": {\"greatest_depth\": {"
+             "\"high_pressure_share_ratio\": 0.3, \"support_area_over_plan_ratio\": 0.6,"
+             " \"gap_over_foot_stress_ratio\": null}}}");
+  const Outcome standing = read_outcome(false, scratch.path());
+  CHECK(standing.high_pressure_share == 0.3);
+  CHECK(standing.support_area_ratio == 0.6);
+  CHECK(std::isnan(standing.gap_stress_ratio));  // closed toes have no gap
   CHECK_THROWS_AS(read_outcome(true, scratch.path()), UserError);
 }
