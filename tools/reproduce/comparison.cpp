@@ -52,7 +52,7 @@ class Table {
   void push(Comparison row) {
     if (row.judgement() == Judgement::kOutside) {
       for (const auto& [claim, text] : refused_) {
-        row.reason += (row.reason.empty() ? "the bed cannot tell: " : "; ") + text;
+        row.reason += (row.reason.empty() ? kBedCannotTell : "; ") + text;
       }
     }
     refused_.clear();

@@ -18,6 +18,9 @@ enum class Standing {
 
 enum class Judgement { kInside, kOutside, kNotRun, kNoBand };
 
+/// How the reason of a comparison begins; the sentences that follow are divided by "; ".
+inline constexpr const char* kBedCannotTell = "the bed cannot tell: ";
+
 struct Comparison {
   std::string name;
   std::string unit;          // "mm", "N", "1"

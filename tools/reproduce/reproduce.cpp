@@ -1,9 +1,12 @@
 #include "tools/reproduce/reproduce.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
 #include <thread>
 
 #include "tools/reproduce/campaign.h"
@@ -180,6 +183,27 @@ TableOptions table_options(const ReproduceOptions& options) {
   return tables;
 }
 
+/// For a terminal: what a bed cannot tell as numbers in place of sentences, which would make a row
+/// four hundred characters wide. @return the sentences, the first is number 1
+std::vector<std::string> number_reasons(std::vector<Comparison>& rows) {
+  std::vector<std::string> names;
+  for (Comparison& row : rows) {
+    if (!row.reason.starts_with(kBedCannotTell)) continue;
+    std::set<std::size_t> numbers;
+    std::istringstream parts(row.reason.substr(std::string(kBedCannotTell).size()));
+    for (std::string part; std::getline(parts, part, ';');) {
+      const std::size_t begin = part.find_first_not_of(' ');
+      const std::string name = part.substr(begin, part.find(": ") - begin);
+      auto at = std::find(names.begin(), names.end(), name);
+      if (at == names.end()) at = names.insert(names.end(), name);
+      numbers.insert(std::size_t(at - names.begin()) + 1);
+    }
+    row.reason = "bed:";
+    for (const std::size_t n : numbers) row.reason += " " + std::to_string(n);
+  }
+  return names;
+}
+
 void run_campaign(const ReproduceOptions& options) {
   Campaign campaign(options.folder(),
                     plan_cells(options.parts, options.design, options.beds, options.first_bed),
@@ -197,7 +221,12 @@ void run_campaign(const ReproduceOptions& options) {
   std::vector<Comparison> rows = summary();
   const std::size_t all = rows.size();
   std::erase_if(rows, [](const Comparison& row) { return !row.ours; });
+  const std::vector<std::string> reasons = number_reasons(rows);
   std::cout << table_of(rows).markdown();
+  for (std::size_t i = 0; i < reasons.size(); ++i) {
+    std::cout << (i == 0 ? "bed: what it cannot tell, with the numbers in summary.csv\n" : "")
+              << "  " << i + 1 << " " << reasons[i] << "\n";
+  }
   if (rows.size() < all) std::cout << all - rows.size() << " more targets were not run\n";
   for (const auto& [foot, hash] : campaign.geometry_hashes()) {
     std::cout << "geometry of " << foot << ": SHA-256 " << hash << "\n";
