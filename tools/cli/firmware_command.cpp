@@ -151,7 +151,7 @@ void add_firmware_command(CLI::App& app, Invocation& invocation) {
       "  hoof firmware build --key ~/foot.key --version 2 && hoof firmware update --bus can0\n"
       "  hoof firmware update --bus can0 --image ~/foot-3.update\n"
       "  hoof firmware update --bus can0 --status");
-  firmware->footer("Example: hoof firmware update --bus can0");
+  firmware->footer("Example:\n  hoof firmware update --bus can0");
   command->callback([&invocation, options] { invocation.run = [options] { run(*options); }; });
 }
 

@@ -25,6 +25,11 @@ class PoweredBoard {
     start_ = board_.now();
   }
 
+  static const tools::emulator::ElfFile& image() {
+    static const tools::emulator::ElfFile elf = tools::emulator::read_elf_file(HOOF_BOARD_IMAGE);
+    return elf;
+  }
+
   bridge::ServiceClient& client() { return client_; }
   tools::emulator::Board& board() { return board_; }
 
@@ -44,11 +49,6 @@ class PoweredBoard {
  private:
   static constexpr std::int64_t kStep_ns = 500'000;
   static constexpr std::int64_t kPatience_ns = 4'000'000'000;  // an erase takes up to 1 s here
-
-  static const tools::emulator::ElfFile& image() {
-    static const tools::emulator::ElfFile elf = tools::emulator::read_elf_file(HOOF_BOARD_IMAGE);
-    return elf;
-  }
 
   void pass() {
     clock_.advance_to(clock_.now_ns() + kStep_ns);

@@ -67,12 +67,16 @@ struct ThrownAway {
   }
 };
 
-/// A run is past its start, in the hidden folder that it grows in: it listens to signals.
+/// A run has moved sand, in the hidden folder that it grows in: stopped before, it would leave
+/// nothing to go on from.
 bool records(const fs::path& cells) {
   std::error_code none;
   for (const auto& entry : fs::directory_iterator(cells, none)) {
     const bool hidden = entry.path().filename().string().front() == '.';
-    if (hidden && fs::exists(entry.path() / "samples.csv", none)) return true;
+    const fs::path samples = entry.path() / "samples.csv";
+    if (hidden && fs::exists(samples, none)) {
+      return read_file(samples).find(",loaded,") != std::string::npos;
+    }
   }
   return false;
 }
@@ -174,7 +178,7 @@ TEST_CASE("slurm: a job told that its time is over stops with a checkpoint, the 
   const ThrownAway bed{"-" + seed + "-"};
   std::vector<std::string> small = {"--terrain", "dem", "--seed", seed};
   for (const char* setting : {"bed.box_length_mm=240", "bed.box_width_mm=200", "bed.depth_mm=93",
-                              "experiment.time_limit_s=0.06"}) {
+                              "experiment.time_limit_s=0.08"}) {
     small.insert(small.end(), {"--set", setting});
   }
   const auto load = [&](const fs::path& folder, std::vector<std::string> more) {
