@@ -21,14 +21,7 @@ void add_claims_command(CLI::App& app, Invocation& invocation) {
       ->type_name("NAME")
       ->allow_extra_args(false)
       ->check(CLI::IsMember(variation_names()).description(""));
-  command->add_option("--scale", options->scale, "Bed: demo (coarse grains), bench, paper [demo]")
-      ->type_name("BED")
-      ->check(CLI::IsMember({"demo", "bench", "paper"}).description(""));
-  command
-      ->add_option("--terrain", options->terrain,
-                   "dem, or rft or rigid: quick looks that say nothing about sand [dem]")
-      ->type_name("NAME")
-      ->check(CLI::IsMember({"dem", "rft", "rigid"}).description(""));
+  add_ground_options(*command, options->scale, options->terrain);
   command->add_option("--beds", options->beds, "Bed preparations of each condition, 2..1000 [5]")
       ->type_name("N")
       ->check(CLI::Range(2, 1000));

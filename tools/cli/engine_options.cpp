@@ -1,8 +1,17 @@
 #include "tools/cli/engine_options.h"
 
-#include <string>
-
 namespace hoof::tools {
+
+void add_ground_options(CLI::App& command, std::string& scale, std::string& terrain) {
+  command.add_option("--scale", scale, "Bed: demo (coarse grains), bench, paper [demo]")
+      ->type_name("BED")
+      ->check(CLI::IsMember({"demo", "bench", "paper"}).description(""));
+  command
+      .add_option("--terrain", terrain,
+                  "dem, or rft or rigid: quick looks that say nothing about sand [dem]")
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"dem", "rft", "rigid"}).description(""));
+}
 
 void add_engine_options(CLI::App& command, Engine& engine) {
   command

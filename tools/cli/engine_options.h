@@ -1,11 +1,15 @@
-// The flags that say who makes a campaign's runs.
+// The flags that the commands of campaigns share: on which ground, and who makes the runs.
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <string>
 
 #include "tools/reproduce/campaign.h"
 
 namespace hoof::tools {
+
+/// --scale and --terrain. The strings must live until the command has run.
+void add_ground_options(CLI::App& command, std::string& scale, std::string& terrain);
 
 /// --jobs, --threads, --engine and those of Slurm. `engine` must live until the command has run.
 void add_engine_options(CLI::App& command, Engine& engine);

@@ -23,14 +23,7 @@ void add_reproduce_command(CLI::App& app, Invocation& invocation) {
       ->type_name("WHAT")
       ->required()
       ->check(CLI::IsMember(known).description(""));
-  command->add_option("--scale", options->scale, "Bed: demo (coarse grains), bench, paper [demo]")
-      ->type_name("BED")
-      ->check(CLI::IsMember({"demo", "bench", "paper"}).description(""));
-  command
-      ->add_option("--terrain", options->terrain,
-                   "dem, or rft or rigid: quick looks that say nothing about sand [dem]")
-      ->type_name("NAME")
-      ->check(CLI::IsMember({"dem", "rft", "rigid"}).description(""));
+  add_ground_options(*command, options->scale, options->terrain);
   std::map<std::string, Design> designs(design_names().begin(), design_names().end());
   command
       ->add_option(

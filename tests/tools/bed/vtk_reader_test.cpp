@@ -1,8 +1,6 @@
 // What VTK's own reader (package python3-vtk9) makes of our files. Where it is not installed CTest
 // lists these tests as skipped.
 
-#include <sys/wait.h>
-
 #include <Eigen/Geometry>
 #include <array>
 #include <catch2/catch.hpp>
@@ -12,62 +10,15 @@
 #include <string>
 
 #include "tests/sim/terrain/small_bed.h"
+#include "tests/tools/bed/vtk_reading.h"
 #include "tests/tools/run/scratch_folder.h"
 #include "tools/bed/grain_export.h"
 
 using namespace hoof;
 using namespace hoof::tools;
-using hoof::tests::ScratchFolder;
+using namespace hoof::tests;
 
 namespace {
-
-struct Reading {
-  int status = 0;
-  std::string text;
-};
-
-Reading read_with_vtk(const std::filesystem::path& file) {
-  const std::string command = "/usr/bin/python3 '" HOOF_SOURCE_DIR
-                              "/tests/tools/bed/read_vtp.py' '" +
-                              file.string() + "' 2>&1";
-  std::FILE* pipe = popen(command.c_str(), "r");
-  REQUIRE(pipe != nullptr);
-  Reading reading;
-  std::array<char, 4096> block;
-  std::size_t count = 0;
-  while ((count = std::fread(block.data(), 1, block.size(), pipe)) > 0) {
-    reading.text.append(block.data(), count);
-  }
-  reading.status = WEXITSTATUS(pclose(pipe));
-  if (reading.status == 77) {
-    WARN("SKIPPED: python3-vtk9 is not installed, " << file << " was not read back");
-  }
-  return reading;
-}
-
-/// The numbers below the line that begins with `title`.
-std::vector<double> numbers_below(const std::string& text, const std::string& title) {
-  std::istringstream lines(text);
-  std::string line;
-  while (std::getline(lines, line) && !line.starts_with(title)) {
-  }
-  INFO(title << " in:\n" << text);
-  REQUIRE(lines);
-  std::vector<double> numbers;
-  while (std::getline(lines, line) && line.starts_with("  ")) {
-    std::istringstream row(line);
-    for (double x; row >> x;) numbers.push_back(x);
-  }
-  return numbers;
-}
-
-void require_near(const std::vector<double>& got, const std::vector<double>& wanted) {
-  REQUIRE(got.size() == wanted.size());
-  for (std::size_t i = 0; i < got.size(); ++i) {
-    INFO("number " << i);
-    CHECK(got[i] == Approx(wanted[i]).epsilon(1e-6));  // 32 bit floats
-  }
-}
 
 sim::DemSettings settings() {
   return sim::dem_settings(sim::test::small_bed(), sim::test::shipped_materials(), 1);
@@ -100,7 +51,7 @@ TEST_CASE("VTK reads grains, contacts and a mesh of a series as they were writte
   series.add(0, "contacts", contact_lines(dem, state, {}));
   series.add(0.25, "foot", mesh_triangles(mesh, {0.1, 0, 0}, quarter));
 
-  const Reading reading = read_with_vtk(series.collection());
+  const VtkReading reading = read_with_vtk(series.collection());
   if (reading.status == 77) return;
   INFO(reading.text);
   REQUIRE(reading.status == 0);
@@ -170,7 +121,7 @@ TEST_CASE("VTK reads a selection without grains") {
   GrainSelection nothing;
   nothing.region = {Eigen::Vector3d(1, 1, 1), Eigen::Vector3d(2, 2, 2)};
   write_vtp(scratch.path() / "none.vtp", contact_lines(settings(), three_grains(), nothing));
-  const Reading reading = read_with_vtk(scratch.path() / "none.vtp");
+  const VtkReading reading = read_with_vtk(scratch.path() / "none.vtp");
   if (reading.status == 77) return;
   INFO(reading.text);
   CHECK(reading.status == 0);

@@ -1,13 +1,9 @@
 // The frames for ParaView as VTK's own reader (package python3-vtk9) reads them, and the numbers of
 // the view. Where VTK is not installed CTest lists the first as skipped.
 
-#include <sys/wait.h>
-
-#include <array>
 #include <catch2/catch.hpp>
-#include <cstdio>
-#include <sstream>
 
+#include "tests/tools/bed/vtk_reading.h"
 #include "tests/tools/fields/made_scene.h"
 #include "tests/tools/run/scratch_folder.h"
 #include "tools/fields/field_export.h"
@@ -39,26 +35,6 @@ struct Pressed {
   }
 };
 
-std::vector<double> numbers_below(const std::string& text, const std::string& title) {
-  const std::size_t at = text.find(title);
-  INFO(title << " in:\n" << text);
-  REQUIRE(at != std::string::npos);
-  std::istringstream lines(text.substr(text.find('\n', at) + 1));
-  std::vector<double> numbers;
-  for (std::string line; std::getline(lines, line) && line.starts_with("  ");) {
-    std::istringstream row(line);
-    for (double x; row >> x;) numbers.push_back(x);
-  }
-  return numbers;
-}
-
-void require_near(const std::vector<double>& got, const std::vector<double>& wanted) {
-  REQUIRE(got.size() == wanted.size());
-  for (std::size_t i = 0; i < got.size(); ++i) {
-    CHECK(got[i] == Approx(wanted[i]).epsilon(1e-6).margin(1e-9));  // 32 bit floats
-  }
-}
-
 }  // namespace
 
 TEST_CASE("VTK reads displacement, the foot's forces and the pressure of its triangles") {
@@ -66,21 +42,8 @@ TEST_CASE("VTK reads displacement, the foot's forces and the pressure of its tri
   const Pressed p;
   VtkSeries series(scratch.path() / "fields", "fields");
   add_frame(series, FieldScene(p.made.setting, p.made.moment), p.contact.moment);
-  const std::string command = "/usr/bin/python3 '" HOOF_SOURCE_DIR
-                              "/tests/tools/bed/read_vtp.py' '" +
-                              series.collection().string() + "' 2>&1";
-  std::FILE* pipe = popen(command.c_str(), "r");
-  REQUIRE(pipe != nullptr);
-  std::string text;
-  std::array<char, 4096> block;
-  for (std::size_t n; (n = std::fread(block.data(), 1, block.size(), pipe)) > 0;) {
-    text.append(block.data(), n);
-  }
-  const int status = WEXITSTATUS(pclose(pipe));
-  if (status == 77) {
-    WARN("SKIPPED: python3-vtk9 is not installed, the frame was not read back");
-    return;
-  }
+  const auto [status, text] = read_with_vtk(series.collection());
+  if (status == 77) return;
   REQUIRE(status == 0);
   REQUIRE(text.find("at 0.5 foot-contacts foot-contacts-00000.vtp") != std::string::npos);
   const std::string foot = text.substr(text.find("at 0.5 foot foot-00000.vtp"));
