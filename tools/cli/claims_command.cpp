@@ -21,7 +21,7 @@ void add_claims_command(CLI::App& app, Invocation& invocation) {
       ->type_name("NAME")
       ->allow_extra_args(false)
       ->check(CLI::IsMember(variation_names()).description(""));
-  add_ground_options(*command, options->scale, options->terrain);
+  add_ground_options(*command, options->ground);
   command->add_option("--beds", options->beds, "Bed preparations of each condition, 2..1000 [5]")
       ->type_name("N")
       ->check(CLI::Range(2, 1000));

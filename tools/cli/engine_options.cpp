@@ -2,12 +2,12 @@
 
 namespace hoof::tools {
 
-void add_ground_options(CLI::App& command, std::string& scale, std::string& terrain) {
-  command.add_option("--scale", scale, "Bed: demo (coarse grains), bench, paper [demo]")
+void add_ground_options(CLI::App& command, Ground& ground) {
+  command.add_option("--scale", ground.scale, "Bed: demo (coarse grains), bench, paper [demo]")
       ->type_name("BED")
       ->check(CLI::IsMember({"demo", "bench", "paper"}).description(""));
   command
-      .add_option("--terrain", terrain,
+      .add_option("--terrain", ground.terrain,
                   "dem, or rft or rigid: quick looks that say nothing about sand [dem]")
       ->type_name("NAME")
       ->check(CLI::IsMember({"dem", "rft", "rigid"}).description(""));

@@ -5,11 +5,12 @@
 #include <string>
 
 #include "tools/reproduce/campaign.h"
+#include "tools/reproduce/ground.h"
 
 namespace hoof::tools {
 
-/// --scale and --terrain. The strings must live until the command has run.
-void add_ground_options(CLI::App& command, std::string& scale, std::string& terrain);
+/// --scale and --terrain. `ground` must live until the command has run.
+void add_ground_options(CLI::App& command, Ground& ground);
 
 /// --jobs, --threads, --engine and those of Slurm. `engine` must live until the command has run.
 void add_engine_options(CLI::App& command, Engine& engine);

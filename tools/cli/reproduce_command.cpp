@@ -23,17 +23,17 @@ void add_reproduce_command(CLI::App& app, Invocation& invocation) {
       ->type_name("WHAT")
       ->required()
       ->check(CLI::IsMember(known).description(""));
-  add_ground_options(*command, options->scale, options->terrain);
+  add_ground_options(*command, options->ground);
   std::map<std::string, Design> designs(design_names().begin(), design_names().end());
   command
       ->add_option(
-          "--design", options->design,
+          "--design", options->asked,
           "night: 16 conditions, for fine grains on two cores; stated: the 44 that the paper "
-          "states numbers of; full: every load, 98 [stated]")
+          "states numbers of; full: every load, 98 [night on bench, else stated]")
       ->type_name("NAME")
       ->transform(CLI::CheckedTransformer(designs).description(""));
   command->add_flag_callback(
-      "--full", [options] { options->design = Design::kFull; }, "The same as --design full");
+      "--full", [options] { options->asked = Design::kFull; }, "The same as --design full");
   command->add_option("--beds", options->beds, "Bed preparations of each condition, 1..1000 [5]")
       ->type_name("N")
       ->check(CLI::Range(1, 1000));
@@ -47,9 +47,8 @@ void add_reproduce_command(CLI::App& app, Invocation& invocation) {
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   command
-      ->add_option(
-          "--out", options->out,
-          "Folder of the campaign [runs/reproduce-BED, of the night on fine grains -BED-night]")
+      ->add_option("--out", options->out,
+                   "Folder of the campaign, shared with hoof claims [runs/reproduce-BED]")
       ->type_name("DIR");
   command->add_flag("--plan", options->plan_only,
                     "Only list the runs, which are done, hours and disk of the others");
@@ -66,7 +65,7 @@ void add_reproduce_command(CLI::App& app, Invocation& invocation) {
       "  hoof reproduce all --plan\n"
       "  hoof reproduce load --beds 5 --jobs 2\n"
       "  hoof reproduce table3 table5\n"
-      "  hoof reproduce all --design night --scale bench      a night of two cores\n"
+      "  hoof reproduce all --scale bench                     a night of two cores\n"
       "  hoof reproduce all --full --scale paper --engine slurm --at-once 64 --time 24:00:00 "
       "--wait\n"
       "  hoof reproduce all --terrain rft --beds 1      the chain in minutes, without grains");
@@ -79,7 +78,7 @@ void add_reproduce_command(CLI::App& app, Invocation& invocation) {
       // The tables are of grains: no part of a quick look without them.
       for (const std::string& number : paper_numbers()) {
         const bool wanted =
-            all ? is_paper_table(number) && options->terrain == "dem" : name == number;
+            all ? is_paper_table(number) && options->ground.terrain == "dem" : name == number;
         if (!wanted) continue;
         (is_paper_table(number) ? options->tables : options->figures).push_back(number);
       }

@@ -29,8 +29,7 @@ std::vector<const Named*> chosen(const std::vector<Named>& all,
 class Inquiry {
  public:
   explicit Inquiry(const ClaimsOptions& options)
-      : options_(options),
-        settings_{"use.bed=" + options.scale, "experiment.terrain=" + options.terrain} {
+      : options_(options), settings_(options.ground.settings()) {
     settings_.insert(settings_.end(), options.settings.begin(), options.settings.end());
     variations_ = claim_variations(settings_);
     claims_ = chosen(paper_claims(), options.names);
@@ -38,8 +37,7 @@ class Inquiry {
   }
 
   void go() {
-    const fs::path out =
-        options_.out.empty() ? fs::path("runs") / ("reproduce-" + options_.scale) : options_.out;
+    const fs::path out = options_.out.empty() ? options_.ground.folder() : options_.out;
     Campaign campaign(out, cells(), settings_);
     if (options_.plan_only) {
       plan(campaign);

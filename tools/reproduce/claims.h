@@ -7,6 +7,7 @@
 
 #include "tools/reproduce/campaign.h"
 #include "tools/reproduce/claim.h"
+#include "tools/reproduce/ground.h"
 #include "tools/reproduce/variation.h"
 
 namespace hoof::tools {
@@ -14,13 +15,12 @@ namespace hoof::tools {
 struct ClaimsOptions {
   std::vector<std::string> names;       // of claims; empty: all
   std::vector<std::string> variations;  // by name; empty: all
-  std::string scale = "demo";
-  std::string terrain = "dem";
+  Ground ground;
   int beds = 5;
   int first_bed = 1;
   Engine engine;
   std::vector<std::string> settings;  // "dotted.key=value" for every run
-  std::filesystem::path out;          // empty: that of hoof reproduce at this scale
+  std::filesystem::path out;          // empty: that of the ground
   bool plan_only = false;
   bool no_runs = false;  // judges by what is there
   bool quiet = false;

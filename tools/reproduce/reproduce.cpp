@@ -31,20 +31,6 @@ std::string design_name(Design design) {
   return "";
 }
 
-fs::path ReproduceOptions::folder() const {
-  if (!out.empty()) return out;
-  const bool other_steps = design == Design::kNight && scale != "demo";
-  return fs::path("runs") / ("reproduce-" + scale + (other_steps ? "-night" : ""));
-}
-
-std::vector<std::string> ReproduceOptions::run_settings() const {
-  std::vector<std::string> all = {"use.bed=" + scale, "experiment.terrain=" + terrain};
-  // 5.6 us, 27 % of the Rayleigh time, for 2.8: that of the studies in RESOLUTION.md.
-  if (design == Design::kNight && scale != "demo") all.push_back("bed.steps_per_ms=180");
-  all.insert(all.end(), settings.begin(), settings.end());
-  return all;
-}
-
 namespace {
 
 /// Units differ from row to row and stand in a column of their own.
@@ -95,8 +81,8 @@ void write_summary(const Campaign& campaign, const ReproduceOptions& options,
   }
   table_of(plain).write_csv(folder / "summary.csv");
   nlohmann::ordered_json j;
-  j["scale"] = options.scale, j["terrain"] = options.terrain;
-  j["design"] = design_name(options.design);
+  j["scale"] = options.ground.scale, j["terrain"] = options.ground.terrain;
+  j["design"] = design_name(options.design());
   j["beds"] = options.beds, j["first_bed"] = options.first_bed;
   j["settings"] = options.settings;
   for (const auto& [foot, hash] : campaign.geometry_hashes()) j["geometry_sha256"][foot] = hash;
@@ -136,11 +122,10 @@ std::string design_text(const ReproduceOptions& options) {
   const std::string beds = "; " + std::to_string(options.beds) +
                            " beds of each, bed after bed, so that whatever stops it leaves whole "
                            "pairs on the beds that are through";
-  switch (options.design) {
+  switch (options.design()) {
     case Design::kNight:
       return "design night: what the bands are of (three feet at 10 and 40 kg, speed at 40 kg, 30 "
-             "degrees at 60 kg, both steps with and without spines), steps of 5.6 us on fine "
-             "grains" +
+             "degrees at 60 kg, both steps with and without spines)" +
              beds;
     case Design::kStated:
       return "design stated: the conditions that the paper states numbers of, as only they can "
@@ -177,7 +162,7 @@ TableOptions table_options(const ReproduceOptions& options) {
   TableOptions tables;
   tables.campaign = options.folder();
   tables.heaps = options.beds;
-  tables.grains = options.scale == "demo" ? 1000 : 3000;
+  tables.grains = options.ground.scale == "demo" ? 1000 : 3000;
   tables.threads = int(std::max(1U, std::thread::hardware_concurrency()));
   tables.quiet = options.quiet;
   return tables;
@@ -205,9 +190,11 @@ std::vector<std::string> number_reasons(std::vector<Comparison>& rows) {
 }
 
 void run_campaign(const ReproduceOptions& options) {
+  std::vector<std::string> settings = options.ground.settings();
+  settings.insert(settings.end(), options.settings.begin(), options.settings.end());
   Campaign campaign(options.folder(),
-                    plan_cells(options.parts, options.design, options.beds, options.first_bed),
-                    options.run_settings());
+                    plan_cells(options.parts, options.design(), options.beds, options.first_bed),
+                    settings);
   if (options.plan_only) {
     print_plan(campaign, options);
     return;

@@ -10,6 +10,7 @@
 
 #include "tools/reproduce/campaign.h"
 #include "tools/reproduce/cell.h"
+#include "tools/reproduce/ground.h"
 
 namespace hoof::tools {
 
@@ -17,20 +18,18 @@ struct ReproduceOptions {
   std::set<Part> parts;
   std::vector<std::string> tables;   // "table2"
   std::vector<std::string> figures;  // "fig5": by their numbers
-  Design design = Design::kStated;
-  std::string scale = "demo";   // preset of the bed
-  std::string terrain = "dem";  // or "rft", "rigid": quick looks that are no sand
+  std::optional<Design> asked;       // nothing: what the ground says
+  Ground ground;
   int beds = 5;
   int first_bed = 1;
   Engine engine;
   std::vector<std::string> settings;  // "dotted.key=value" for every run
-  std::filesystem::path out;          // empty: folder()
+  std::filesystem::path out;          // empty: that of the ground
   bool plan_only = false;             // says what is there and what is missing, runs nothing
   bool quiet = false;
 
-  std::filesystem::path folder() const;
-  /// Those of every run, in words of the settings.
-  std::vector<std::string> run_settings() const;
+  std::filesystem::path folder() const { return out.empty() ? ground.folder() : out; }
+  Design design() const { return asked.value_or(ground.design()); }
 };
 
 std::string design_name(Design design);

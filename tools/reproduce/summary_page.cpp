@@ -53,11 +53,11 @@ std::string summary_page(const Campaign& campaign, const ReproduceOptions& optio
   for (const auto& [condition, beds] : outcomes) runs += beds.size();
   std::string body = element(
       "p", std::to_string(runs) + " of " + std::to_string(campaign.cells().size()) + " runs, bed " +
-               options.scale + ", terrain " + options.terrain + ". Of the " +
+               options.ground.scale + ", terrain " + options.ground.terrain + ". Of the " +
                std::to_string(inside + outside + missing) + " predictions " +
                std::to_string(inside) + " are inside what is accepted, " + std::to_string(outside) +
                " outside, " + std::to_string(missing) + " not run.");
-  if (options.terrain != "dem") {
+  if (options.ground.terrain != "dem") {
     body += element("p", "Not on grains: this shows the campaign, and says nothing about sand.");
   }
   body += element("p",

@@ -6,6 +6,7 @@
 
 #include "tools/experiment/run_settings.h"
 #include "tools/reproduce/campaign.h"
+#include "tools/reproduce/ground.h"
 #include "tools/reproduce/paper.h"
 
 using namespace hoof::tools;
@@ -41,6 +42,21 @@ TEST_CASE("plan: each run once, bed after bed, and every number of the paper has
   CHECK(plan_cells(all_parts(), Design::kStated, 1, 1).size() == 12 + 18 + 6 + 8);
   // 3 x 6 x 2, 5 x 6 x 2 less the closed ones that are there.
   CHECK(plan_cells(all_parts(), Design::kFull, 1, 1).size() == 36 + 48 + 6 + 8);
+}
+
+TEST_CASE("ground: bench is a night of two cores, and its step is said to every run") {
+  const Ground demo, bench{"bench", "dem"}, paper{"paper", "dem"}, quick{"bench", "rft"};
+  CHECK(demo.design() == Design::kStated);
+  CHECK(bench.design() == Design::kNight);
+  CHECK(paper.design() == Design::kStated);
+  CHECK(quick.design() == Design::kStated);
+  CHECK(demo.folder() == "runs/reproduce-demo");
+  CHECK(quick.folder() == "runs/reproduce-bench-rft");
+  const auto step_s = [](const Ground& ground) {
+    return read_run_settings("sinkage", ground.settings()).bed.step_s();
+  };
+  CHECK(step_s(bench) == Approx(5.6e-6).epsilon(0.01));  // 1 ms / 180
+  CHECK(step_s(paper) == Approx(2.8e-6).epsilon(0.01));
 }
 
 TEST_CASE("plan: the night's conditions are some of the stated, and both feet of each ratio") {
