@@ -8,6 +8,7 @@ namespace hoof::tools::assets {
 
 extern const std::string_view page_css;
 extern const std::string_view page_js;
+extern const std::string_view save_js;
 extern const std::string_view three_bundle_min_js;
 extern const std::string_view view_js;
 extern const std::string_view uPlot_iife_min_js;

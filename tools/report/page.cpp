@@ -30,7 +30,7 @@ std::string make_page(const std::string& title, const std::string& body,
   html += assets::page_css;
   html += "</style>\n</head>\n<body>\n" + element("h1", title) + "\n" + body;
   html += script(json_for_script(samples_json), " type=\"application/json\" id=\"samples\"");
-  html += script(assets::uPlot_iife_min_js) + script(assets::page_js);
+  html += script(assets::uPlot_iife_min_js) + script(assets::page_js) + script(assets::save_js);
   return html + "</body>\n</html>\n";
 }
 

@@ -105,3 +105,35 @@ TEST_CASE("the view of the sand draws in a browser, offline, and follows its con
   CHECK(triangles(after.page, "data-triangles=\"") < 408 * 20);
   CHECK(triangles(after.page, "data-triangles=\"") > 0);
 }
+
+TEST_CASE("each map is saved as a PNG by the page itself") {
+  if (browser_is_missing()) return;
+  const ScratchFolder scratch;
+  write_synthetic_run(scratch.path(), 100);
+  write_fields(scratch.path());
+  const std::filesystem::path page = write_report(scratch.path()),
+                              asked = scratch.path() / "a.html";
+  // What the button saves, read back: its size and a pixel of the first grain that is drawn.
+  write_file(asked, read_file(page) + R"(<script>(async () => {
+    const figure = document.querySelector(".maps figure");
+    const box = figure.querySelector("svg").viewBox.baseVal;
+    const grain = [...figure.querySelectorAll("circle")].pop();
+    const image = new Image();
+    image.src = await figureAsPng(figure);
+    await image.decode();
+    const canvas = document.createElement("canvas");
+    canvas.width = image.naturalWidth, canvas.height = image.naturalHeight;
+    const context = canvas.getContext("2d");
+    context.drawImage(image, 0, 0);
+    const scale = canvas.width / box.width;
+    const at = context.getImageData(scale * grain.getAttribute("cx"), scale * grain.getAttribute("cy"), 1, 1).data;
+    const hex = "#" + [...at].slice(0, 3).map((v) => v.toString(16).padStart(2, "0")).join("");
+    document.body.dataset.png = image.src.slice(0, 22) + " " + canvas.width + " " +
+      (Math.abs(canvas.height / canvas.width - box.height / box.width) < 0.001) + " " +
+      (hex === grain.getAttribute("fill"));
+  })();</script>)");
+  const Opened opened = open_in_browser(asked, scratch.path(), "--virtual-time-budget=5000");
+  CHECK(opened.messages == "");
+  CHECK_THAT(opened.page, Catch::Contains("data-png=\"data:image/png;base64, 1800 true true\""));
+  CHECK(count_of(opened.page, ">PNG</button>") == count_of(opened.page, "<figure"));
+}

@@ -45,11 +45,14 @@ struct Opened {
 // Root, as in a container, cannot use chromium's sandbox; the page is our own. So may WebGL be
 // drawn in software.
 inline Opened open_in_browser(const std::filesystem::path& page,
-                              const std::filesystem::path& scratch) {
+                              const std::filesystem::path& scratch,
+                              const std::string& more_flags = "") {
   const std::string log = (scratch / "browser.log").string();
   const ShellOutcome outcome = run_shell(
       "timeout 60 chromium --headless=new --no-sandbox --disable-gpu --disable-dev-shm-usage "
-      "--enable-unsafe-swiftshader "
+      "--enable-unsafe-swiftshader " +
+      more_flags +
+      " "
       "--host-resolver-rules='MAP * ~NOTFOUND' --enable-logging=stderr --user-data-dir='" +
       (scratch / "profile").string() + "' --dump-dom 'file://" + page.string() + "' 2>'" + log +
       "'");
