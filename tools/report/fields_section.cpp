@@ -59,15 +59,15 @@ HeadlineRow shown_row(const Row& row, const std::string& key, const Json& value)
 }
 
 std::string numbers_table(const Json& moments) {
-  std::string html = "<div class=\"wide numbers\"><table><tr><th></th>";
+  std::string html = "<div class=\"wide numbers\"><table><tr><th></th><th></th>";
   for (const Json& m : moments) {
     html += element("th", m.at("name").get<std::string>(), " class=\"number\" scope=\"col\"");
   }
-  html += "<th></th></tr>\n";
+  html += "</tr>\n";
   for (const Row& row : kRows) {
     const Json::json_pointer pointer(row.pointer);
     html += "<tr>" + element("th", row.label, " scope=\"row\"");
-    std::string unit;
+    std::string unit, cells;
     for (const Json& m : moments) {
       const Json value = m.contains(pointer) ? m.at(pointer) : Json(nullptr);
       std::string text = "-";
@@ -75,9 +75,9 @@ std::string numbers_table(const Json& moments) {
         const HeadlineRow shown = shown_row(row, pointer.back(), value);
         text = shown.value, unit = shown.unit;
       }
-      html += element("td", text, " class=\"number\"");
+      cells += element("td", text, " class=\"number\"");
     }
-    html += element("td", unit, " class=\"unit\"") + "</tr>\n";
+    html += element("td", unit, " class=\"unit\"") + cells + "</tr>\n";
   }
   return html + "</table></div>\n";
 }
