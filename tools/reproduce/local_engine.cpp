@@ -57,7 +57,7 @@ std::vector<std::string> run_in_turn(const RunStore& store, const std::vector<Pl
   Account account(missing.size(), quiet);
   for (const PlannedRun& run : missing) {
     account.begins(run.id);
-    const std::string why_not = make_noted(store, run, quiet);
+    const std::string why_not = make_once(store, run, quiet);
     account.ends();
     if (why_not.empty()) {
       after(run.id);

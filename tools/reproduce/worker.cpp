@@ -77,6 +77,9 @@ BedPlace bed_place(const PlannedRun& run) {
   return {file, fs::exists(file)};
 }
 
+namespace {
+
+/// Whoever calls holds the run's lock.
 std::string make_noted(const RunStore& store, const PlannedRun& run, bool quiet) {
   Attempt attempt = store.attempt(run.id).value_or(Attempt{});
   attempt = {"running", "", where(), attempt.tries + 1};
@@ -103,6 +106,23 @@ std::string make_noted(const RunStore& store, const PlannedRun& run, bool quiet)
   return "";
 }
 
+}  // namespace
+
+std::string make_once(const RunStore& store, const PlannedRun& run, bool quiet) {
+  auto lock = store.lock(run.id);
+  // Whoever looks whether a run is under way holds its lock for a moment.
+  for (int i = 0; i < 20 && lock->taken(); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    lock = store.lock(run.id);
+  }
+  if (lock->taken()) return kHeldByAnother;
+  if (store.done(run)) {
+    store.seal_if_open(run);
+    return "";
+  }
+  return make_noted(store, run, quiet);
+}
+
 void work(const WorkerOptions& options) {
   end_with(options.parent);
   const PlannedRun run = find_run(read_manifest(options.campaign), options.id);
@@ -111,21 +131,11 @@ void work(const WorkerOptions& options) {
     need_bed(store, run, options.quiet);
     return;
   }
-  auto lock = store.lock(run.id);
-  // Whoever looks whether a run is under way holds its lock for a moment.
-  for (int i = 0; i < 20 && lock->taken(); ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    lock = store.lock(run.id);
-  }
-  if (lock->taken()) {
-    std::cerr << "hoof: another process is making " << run.id << "; left to that one\n";
+  const std::string why_not = make_once(store, run, options.quiet);
+  if (why_not == kHeldByAnother) {
+    std::cerr << "hoof: " << run.id << ": " << why_not << "; left to that one\n";
     return;
   }
-  if (store.done(run)) {
-    store.seal_if_open(run);
-    return;
-  }
-  const std::string why_not = make_noted(store, run, options.quiet);
   if (!why_not.empty()) throw CannotFinish(run.id + ": " + why_not);
 }
 

@@ -30,7 +30,10 @@ BedPlace bed_place(const PlannedRun& run);
 /// @throws UserError, CannotFinish; Interrupted after SIGINT, SIGTERM or SIGUSR1, with a checkpoint
 void work(const WorkerOptions& options);
 
-/// The same in this process, of a store that is open: why it could not be finished, or nothing.
-std::string make_noted(const RunStore& store, const PlannedRun& run, bool quiet);
+/// What make_once() says of a run that another process is making.
+inline constexpr char kHeldByAnother[] = "another process is making it";
+
+/// The same in this process, of a store that is open: why it is not done, or nothing.
+std::string make_once(const RunStore& store, const PlannedRun& run, bool quiet);
 
 }  // namespace hoof::tools

@@ -132,6 +132,26 @@ TEST_CASE("reproduce: told to stop, runs at once stop too, and nothing is left h
              Catch::Contains(std::to_string(kept) + " of 18 runs done, 0 under way"));
 }
 
+TEST_CASE("reproduce: one run at a time holds its lock, and leaves what another holds") {
+  const ScratchFolder scratch;
+  const fs::path out = scratch.path() / "turn";
+  const std::string held = "traction-bionic-toe0-1.12Hz-bed1";
+  fs::create_directories(out / "locks" / held);
+  const tools::FolderLock lock(out / "locks" / held);
+  REQUIRE(lock.held());
+  const Program program(campaign(out, {"--jobs", "1"}));
+  bool seen = false;
+  while (sealed(out) < kRuns - 1 && !seen) {
+    const Outcome status = run_program({"campaign", "status", out.string()});
+    seen = status.output.find("under way  ") != std::string::npos;
+  }
+  CHECK(seen);
+  const Outcome end = program.wait();
+  CHECK(end.status == 3);
+  CHECK_THAT(end.errors, Catch::Contains(held + ": another process is making it"));
+  CHECK(sealed(out) == kRuns - 1);
+}
+
 TEST_CASE("claims: runs what is missing over variations, shares the base with reproduce") {
   const ScratchFolder scratch;
   const fs::path out = scratch.path() / "claims";
