@@ -5,42 +5,26 @@
 
 #include "sim/drive/drive.h"
 #include "sim/effects/effect.h"
+#include "tests/sim/drive/plain_drive.h"
 
 using namespace hoof::sim;
+using namespace hoof::tests;
 
 namespace {
 
 constexpr double kStep_s = 50e-6;
 
-/// No friction, timeout, speed line or quantisation to speak of.
-DriveSettings plain_drive() {
-  DriveSettings s;
-  s.gear_ratio = 10.0;
-  s.rotor_inertia_kg_m2 = 0.01;
-  s.torque_limit_Nm = 20.0;
-  s.stall_torque_Nm = 1e9;
-  s.no_load_speed_rad_s = 1e6;
-  s.gear_stiffness_Nm_rad = 2000.0;
+/// As good as no quantisation and no heat either, and a gear that does not ring.
+DriveSettings calm_drive() {
+  DriveSettings s = plain_drive();
   s.gear_damping_Nm_s_rad = 3.0;
   s.encoder_counts_turn = 1e7;
-  s.velocity_filter_Hz = 200.0;
-  s.absolute_position = true;
-  s.command_timeout_s = 1e9;
-  s.thermal_resistance_K_W = 3.0;
-  s.heat_capacity_J_K = 100.0;
-  s.ambient_C = 25.0;
   s.temperature_limit_C = 1e6;
   return s;
 }
 
 std::unique_ptr<JointEffect> effect(const char* name, std::vector<double> values) {
   return find_effect(name)->make_joint(values);
-}
-
-DriveCommand torque_command(double torque_Nm) {
-  DriveCommand command;
-  command.torque_Nm = torque_Nm;
-  return command;
 }
 
 /// Of a joint that is held still.
@@ -57,7 +41,7 @@ constexpr int kSettled = 10000;  // half a second
 TEST_CASE("play: the rotor of a held joint stands half the gap off, on the side it pushes to") {
   const double side = GENERATE(-1.0, 1.0);
   const double gap_rad = GENERATE(0.004, 0.03);
-  Drive drive(plain_drive());
+  Drive drive(calm_drive());
   drive.add_physics(effect("backlash", {gap_rad}));
   drive.enable();
   drive.command(torque_command(4 * side));
@@ -73,7 +57,7 @@ TEST_CASE("play: the rotor of a held joint stands half the gap off, on the side 
 }
 
 TEST_CASE("in the play the rotor alone is moved: no torque at the joint, tau over J at the rotor") {
-  Drive drive(plain_drive());
+  Drive drive(calm_drive());
   drive.add_physics(effect("backlash", {0.2}));
   drive.enable();
   drive.command(torque_command(0.5));
@@ -84,14 +68,14 @@ TEST_CASE("in the play the rotor alone is moved: no torque at the joint, tau ove
 
 TEST_CASE("compliance: the held joint's drive deflects by torque over stiffness") {
   const double torque_Nm = GENERATE(-3.0, 5.0);
-  Drive drive(plain_drive());
+  Drive drive(calm_drive());
   drive.add_physics(effect("joint_compliance", {50.0}));
   drive.enable();
   drive.command(torque_command(torque_Nm));
   hold(drive, 8 * kSettled);
   CHECK(drive.rotor_position_rad() == Approx(torque_Nm / 50).epsilon(1e-4));
   // A spring that is stiffer than the gear changes nothing.
-  Drive stiff(plain_drive()), without(plain_drive());
+  Drive stiff(calm_drive()), without(calm_drive());
   stiff.add_physics(effect("joint_compliance", {5000.0}));
   for (Drive* d : {&stiff, &without}) {
     d->enable();
@@ -103,7 +87,7 @@ TEST_CASE("compliance: the held joint's drive deflects by torque over stiffness"
 
 TEST_CASE("lag: a torque step comes in by its exponential, and the drive tells the step") {
   const double tau_s = 0.01;
-  Drive drive(plain_drive());
+  Drive drive(calm_drive());
   drive.add_physics(effect("actuator_lag", {tau_s}));
   drive.enable();
   drive.command(torque_command(0));
@@ -120,7 +104,7 @@ TEST_CASE("lag: a torque step comes in by its exponential, and the drive tells t
 }
 
 TEST_CASE("Stribeck friction holds what Coulomb's alone would let go, and falls with speed") {
-  DriveSettings settings = plain_drive();
+  DriveSettings settings = calm_drive();
   settings.coulomb_friction_Nm = 1;
   Drive drive(settings);
   drive.add_physics(effect("stribeck_friction", {0.5, 0.2}));
@@ -142,7 +126,7 @@ TEST_CASE("Stribeck friction holds what Coulomb's alone would let go, and falls 
 }
 
 TEST_CASE("friction by load: a joint at an even speed takes coefficient times both torques more") {
-  DriveSettings settings = plain_drive();
+  DriveSettings settings = calm_drive();
   settings.coulomb_friction_Nm = 0.5;
   Drive drive(settings);
   const double c = 0.1;
@@ -160,7 +144,7 @@ TEST_CASE("friction by load: a joint at an even speed takes coefficient times bo
 
 TEST_CASE("a goal counts from the first step that begins its delay later, and none is lost") {
   const int delay_steps = GENERATE(1, 20, 73);
-  DriveSettings settings = plain_drive();
+  DriveSettings settings = calm_drive();
   Drive drive(settings);
   drive.add_physics(effect("transport_delay", {delay_steps * kStep_s}));
   drive.enable();
@@ -178,7 +162,7 @@ TEST_CASE("a goal counts from the first step that begins its delay later, and no
 }
 
 TEST_CASE("goals that are lost leave the last one in force, in the share that was asked for") {
-  Drive drive(plain_drive());
+  Drive drive(calm_drive());
   drive.add_physics(effect("frame_loss", {0.05, 4.0}));
   drive.enable();
   int lost = 0;
@@ -200,7 +184,7 @@ TEST_CASE("goals that are lost leave the last one in force, in the share that wa
 }
 
 TEST_CASE("an eccentric encoder reads its sine, and its zero is where it was made") {
-  DriveSettings settings = plain_drive();
+  DriveSettings settings = calm_drive();
   settings.absolute_position = GENERATE(false, true);
   const double phase = 0.7, q = 0.4;
   Drive drive(settings);
@@ -212,16 +196,16 @@ TEST_CASE("an eccentric encoder reads its sine, and its zero is where it was mad
 }
 
 TEST_CASE("torques on the link reach the joint, not the rotor") {
-  Drive drive(plain_drive());
+  Drive drive(calm_drive());
   drive.add_physics(effect("parasitic_spring", {4.0, 0.1}));
   const double q = GENERATE(-0.3, 0.1, 0.5);
-  Drive without(plain_drive());
+  Drive without(calm_drive());
   CHECK(drive.step(kStep_s, q, 0) - without.step(kStep_s, q, 0) == Approx(-4 * (q - 0.1)));
   CHECK(drive.rotor_velocity_rad_s() == without.rotor_velocity_rad_s());
 }
 
 TEST_CASE("effects of no size give the bytes of none, whatever is done") {
-  DriveSettings settings = plain_drive();
+  DriveSettings settings = calm_drive();
   settings.coulomb_friction_Nm = 0.3;
   settings.viscous_friction_Nm_s_rad = 0.02;
   settings.encoder_counts_turn = 16384;
@@ -261,7 +245,7 @@ TEST_CASE("effects of no size give the bytes of none, whatever is done") {
 }
 
 TEST_CASE("play and friction keep the books: energy in is energy stored, lost and given") {
-  DriveSettings settings = plain_drive();
+  DriveSettings settings = calm_drive();
   settings.coulomb_friction_Nm = 0.4;
   Drive drive(settings);
   drive.add_physics(effect("backlash", {0.01}));
@@ -281,7 +265,7 @@ TEST_CASE("play and friction keep the books: energy in is energy stored, lost an
 }
 
 TEST_CASE("what acts on the supply is refused: a drive of the foot has none") {
-  Drive drive(plain_drive());
+  Drive drive(calm_drive());
   CHECK_THROWS_WITH(drive.add_physics(effect("supply_sag", {1.0})),
                     Catch::Contains("no supply voltage"));
 }

@@ -5,8 +5,10 @@
 
 #include "sim/config/config_error.h"
 #include "tests/sim/coupling/shipped_plant.h"
+#include "tests/sim/experiments/read_section.h"
 
 using namespace hoof::sim;
+using hoof::tests::read_section;
 
 namespace {
 
@@ -55,12 +57,8 @@ time_limit_s = 2
 )";
 
 SinkageSettings read(const std::string& toml) {
-  Settings run;
-  run.merge(Settings::parse(toml, "sinkage.toml"), "experiment");
-  const Reader section = Reader(run).section("experiment");
-  const SinkageSettings settings = read_sinkage(section);
-  section.finish();
-  return settings;
+  return read_section(toml, "sinkage.toml",
+                      [](const Reader& section) { return read_sinkage(section); });
 }
 
 }  // namespace

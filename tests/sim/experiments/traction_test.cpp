@@ -7,8 +7,10 @@
 
 #include "sim/config/config_error.h"
 #include "tests/sim/coupling/shipped_plant.h"
+#include "tests/sim/experiments/read_section.h"
 
 using namespace hoof::sim;
+using hoof::tests::read_section;
 
 namespace {
 
@@ -42,12 +44,8 @@ cycles = 2
 )";
 
 TractionSettings read(const std::string& toml) {
-  Settings run;
-  run.merge(Settings::parse(toml, "traction.toml"), "experiment");
-  const Reader section = Reader(run).section("experiment");
-  const TractionSettings settings = read_traction(section);
-  section.finish();
-  return settings;
+  return read_section(toml, "traction.toml",
+                      [](const Reader& section) { return read_traction(section); });
 }
 
 }  // namespace
