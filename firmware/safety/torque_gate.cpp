@@ -1,6 +1,7 @@
 #include "firmware/safety/torque_gate.h"
 
 #include "firmware/control/math.h"
+#include "firmware/control/seconds.h"
 #include "firmware/safety/command_limits.h"
 
 namespace hoof::firmware::safety {
@@ -13,13 +14,10 @@ using control::JointState;
 using control::JointWish;
 using control::kJointCount;
 using control::Mode;
+using control::seconds;
 namespace fault = control::fault;
 
 namespace {
-
-constexpr float seconds(std::int64_t time_ns) {
-  return static_cast<float>(time_ns) * 1e-9f;
-}
 
 bool drives_are_used(Mode mode) {
   return mode == Mode::kHoming || mode == Mode::kReady || mode == Mode::kRunning ||

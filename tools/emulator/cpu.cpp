@@ -246,6 +246,9 @@ void Cpu::map_flash(std::uint32_t base, std::span<std::uint8_t> memory, Register
   require(uc_mem_map_ptr(machine_->engine, base, memory.size(), UC_PROT_READ | UC_PROT_EXEC,
                          memory.data()),
           "map flash");
+  // Of memory of the caller's Unicorn only notes the rights; this makes it drop the stores.
+  require(uc_mem_protect(machine_->engine, base, memory.size(), UC_PROT_READ | UC_PROT_EXEC),
+          "make flash read-only");
   machine_->flashes.push_back({writes, base, memory});
 }
 
