@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "firmware/control/math.h"
-#include "firmware/control/seconds.h"
 
 namespace hoof::firmware::safety {
 

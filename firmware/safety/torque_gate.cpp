@@ -1,7 +1,6 @@
 #include "firmware/safety/torque_gate.h"
 
 #include "firmware/control/math.h"
-#include "firmware/control/seconds.h"
 #include "firmware/safety/command_limits.h"
 
 namespace hoof::firmware::safety {
