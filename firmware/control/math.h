@@ -2,6 +2,8 @@
 // C library does not promise. Error bounds are tested against the C library in double precision.
 #pragma once
 
+#include <cstdint>
+
 namespace hoof::firmware::control {
 
 inline constexpr float kPi = 3.14159265358979f;
@@ -20,6 +22,13 @@ inline float clamp(float x, float low, float high) {
 }
 inline float square(float x) {
   return x * x;
+}
+
+/// Nanoseconds to seconds. The board's FPU converts 32 bits in one instruction; 64, more than two
+/// seconds, take a function of the library's, which rounds the same way.
+inline float seconds(std::int64_t time_ns) {
+  const auto narrow = static_cast<std::int32_t>(time_ns);
+  return (narrow == time_ns ? static_cast<float>(narrow) : static_cast<float>(time_ns)) * 1e-9f;
 }
 
 /// False for not-a-number and infinities.

@@ -47,7 +47,7 @@ FaultBits ReplyWatch::inspect(const JointLimits& limits, const DriveData& drive,
 bool ReplyWatch::motion_plausible(const JointLimits& limits, const JointState& state) {
   if (!compared_) return true;
   const float moved_rad = state.reading_rad - last_.reading_rad;
-  const float elapsed_s = static_cast<float>(state.received_ns - last_.received_ns) * 1e-9f;
+  const float elapsed_s = control::seconds(state.received_ns - last_.received_ns);
   // Half a tick more: replies need not come at equal distances.
   const float reach_rad = limits.plausible_rad_s * (elapsed_s + 0.5f * control::kTick_s);
   // Control time stands still while SYNC pauses, the local clock runs on while a slow plant stands:

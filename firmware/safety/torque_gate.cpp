@@ -13,13 +13,10 @@ using control::JointState;
 using control::JointWish;
 using control::kJointCount;
 using control::Mode;
+using control::seconds;
 namespace fault = control::fault;
 
 namespace {
-
-constexpr float seconds(std::int64_t time_ns) {
-  return static_cast<float>(time_ns) * 1e-9f;
-}
 
 bool drives_are_used(Mode mode) {
   return mode == Mode::kHoming || mode == Mode::kReady || mode == Mode::kRunning ||

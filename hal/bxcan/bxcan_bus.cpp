@@ -20,8 +20,9 @@ constexpr std::uint32_t kReleaseTries = 50;
 constexpr std::uint32_t kNormal = mcr::kDebugFreeze;
 constexpr std::uint32_t kInitialisation = kNormal | mcr::kInitialisationRequest;
 
-constexpr std::uint32_t kInterrupts = ier::kMailboxEmpty | ier::kFifo0Pending | ier::kFifo1Pending |
-                                      ier::kBusOff | ier::kLastErrorCode | ier::kErrors;
+/// That of empty mailboxes comes and goes: see send().
+constexpr std::uint32_t kInterrupts =
+    ier::kFifo0Pending | ier::kFifo1Pending | ier::kBusOff | ier::kLastErrorCode | ier::kErrors;
 
 constexpr std::uint32_t identifier_word(const CanFrame& frame) {
   const std::uint32_t remote = frame.remote ? identifier::kRemote : 0;
@@ -114,8 +115,13 @@ SendResult BxCanBus::send(const CanFrame& frame) {
     return bus_off() ? SendResult::kBusOff : SendResult::kDown;
   }
   const std::uint32_t identifier = identifier_word(frame);
-  const std::size_t chosen = choose_mailbox(identifier);
-  if (chosen == kMailboxes) return SendResult::kFull;
+  const std::uint32_t status = take_completed();
+  const std::size_t chosen = choose_mailbox(status, identifier);
+  if (chosen == kMailboxes) {
+    // Only who waits for room wants to know when a frame has left: else each would wake the core.
+    registers_.IER.set(ier::kMailboxEmpty);
+    return SendResult::kFull;
+  }
   Mailbox& mailbox = registers_.transmit[chosen];
   mailbox.length.write(frame.length);
   mailbox.low.write(four_bytes(frame, 0));
@@ -124,10 +130,22 @@ SendResult BxCanBus::send(const CanFrame& frame) {
   return SendResult::kQueued;
 }
 
+/// Counts what has left since the last call; a mailbox forgets it with its next frame.
+/// @return TSR as it was
+std::uint32_t BxCanBus::take_completed() {
+  const std::uint32_t status = registers_.TSR.read();
+  const std::uint32_t completed = status & tsr::kAllCompleted;
+  if (completed == 0) return status;
+  sent_ += tsr::transmissions_ok(status);
+  registers_.TSR.write(completed);
+  return status;
+}
+
 /// RM0090 rev. 19, 32.7.1 (abort): a mailbox that is pending or scheduled is empty at once, one
 /// that is being sent when its frame has ended.
 void BxCanBus::withdraw(std::uint32_t id) {
   const std::uint32_t status = registers_.TSR.read();
+  if ((status & tsr::kAllEmpty) == tsr::kAllEmpty) return;
   const std::uint32_t identifier = id << identifier::kStandardShift;
   std::uint32_t aborts = 0;
   for (std::size_t i = 0; i < kMailboxes; ++i) {
@@ -138,8 +156,7 @@ void BxCanBus::withdraw(std::uint32_t id) {
 }
 
 /// The first empty mailbox above all that hold the same identifier.
-std::size_t BxCanBus::choose_mailbox(std::uint32_t identifier) const {
-  const std::uint32_t status = registers_.TSR.read();
+std::size_t BxCanBus::choose_mailbox(std::uint32_t status, std::uint32_t identifier) const {
   std::size_t chosen = kMailboxes;
   for (std::size_t i = kMailboxes; i-- > 0;) {
     if ((status & tsr::empty(i)) != 0) {
@@ -176,8 +193,8 @@ BusStatus BxCanBus::status() const {
     status.receive_error_count = esr::receive_errors(errors);
   }
   status.received = received_;
+  status.sent = sent_ + (state_ == State::kDown ? 0 : tsr::transmissions_ok(registers_.TSR.read()));
   const InterruptLock lock;  // two words each
-  status.sent = sent_;
   status.dropped = dropped_;
   status.error_frames = error_frames_;
   return status;
@@ -185,12 +202,16 @@ BusStatus BxCanBus::status() const {
 
 void BxCanBus::on_receive_interrupt(std::size_t fifo, std::int64_t now_ns) {
   Register& fifo_status = registers_.RFR[fifo];
-  for (std::uint32_t i = 0; i < kFifoDepth && fifo_status.has_any(rfr::kPending); ++i) {
+  std::uint32_t status = fifo_status.read();
+  for (std::uint32_t i = 0; i < kFifoDepth && (status & rfr::kPending) != 0; ++i) {
     take_frame(fifo, now_ns);
     fifo_status.write(rfr::kRelease);
-    wait_until(kReleaseTries, [&fifo_status] { return !fifo_status.has(rfr::kRelease); });
+    wait_until(kReleaseTries, [&] {
+      status = fifo_status.read();
+      return (status & rfr::kRelease) == 0;
+    });
   }
-  if (fifo_status.has(rfr::kOverrun)) {
+  if ((status & rfr::kOverrun) != 0) {
     ++dropped_;  // one at least; the peripheral does not count them
     fifo_status.write(rfr::kOverrun);
   }
@@ -203,13 +224,9 @@ void BxCanBus::take_frame(std::size_t fifo, std::int64_t now_ns) {
   if (!queue_.put(frame, fifo == kUrgentFifo)) ++dropped_;
 }
 
+/// Once: what has left is counted with the next frame, and until then would interrupt again.
 void BxCanBus::on_transmit_interrupt() {
-  const std::uint32_t status = registers_.TSR.read();
-  for (std::size_t i = 0; i < kMailboxes; ++i) {
-    if ((status & tsr::request_completed(i)) == 0) continue;
-    if ((status & tsr::transmission_ok(i)) != 0) ++sent_;
-    registers_.TSR.write(tsr::request_completed(i));
-  }
+  registers_.IER.clear(ier::kMailboxEmpty);
 }
 
 void BxCanBus::on_status_interrupt() {

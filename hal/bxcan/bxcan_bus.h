@@ -3,6 +3,7 @@
 // Sending. Three mailboxes; the peripheral sends the smallest identifier first (MCR.TXFP = 0) and,
 // of equal ones, the lower mailbox. So that equal identifiers leave in the order of sending, a
 // frame never goes into a mailbox below one that holds its identifier; rather, the bus is full.
+// From then on, and only then, the next frame that leaves interrupts.
 //
 // Receiving. FIFO 0 is for what is urgent (the e-stop), FIFO 1 for the rest; the interrupts empty
 // both into one queue of 32 frames, whose last places are for FIFO 0.
@@ -73,7 +74,8 @@ class BxCanBus final : public CanBus {
   };
 
   /// kMailboxes when there is none.
-  std::size_t choose_mailbox(std::uint32_t identifier) const;
+  std::size_t choose_mailbox(std::uint32_t status, std::uint32_t identifier) const;
+  std::uint32_t take_completed();
   void leave_bus(std::int64_t now_ns);
   void take_frame(std::size_t fifo, std::int64_t now_ns);
 
@@ -83,10 +85,10 @@ class BxCanBus final : public CanBus {
   std::int64_t joined_ns_ = 0;
   std::int64_t rejoin_ns_ = 0;
   std::int64_t back_off_ns_ = kFirstBackOff_ns;
-  std::uint64_t received_ = 0;  // by the main loop
+  std::uint64_t received_ = 0;  // by the main loop, and so the next
+  std::uint64_t sent_ = 0;      // but for what TSR still tells
 
   // By the interrupts.
-  std::uint64_t sent_ = 0;
   std::uint64_t dropped_ = 0;
   std::uint64_t error_frames_ = 0;
 };

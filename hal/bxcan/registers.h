@@ -86,6 +86,15 @@ constexpr std::uint32_t empty(std::size_t mailbox) {
   return 1u << (26 + mailbox);
 }
 inline constexpr std::uint32_t kAbortAll = abort(0) | abort(1) | abort(2);
+inline constexpr std::uint32_t kAllEmpty = empty(0) | empty(1) | empty(2);
+inline constexpr std::uint32_t kAllCompleted =
+    request_completed(0) | request_completed(1) | request_completed(2);
+constexpr std::uint32_t transmissions_ok(std::uint32_t status) {
+  std::uint32_t count = 0;
+  for (std::size_t i = 0; i < kMailboxes; ++i)
+    count += (status & transmission_ok(i)) != 0 ? 1u : 0u;
+  return count;
+}
 }  // namespace tsr
 
 namespace rfr {

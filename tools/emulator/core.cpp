@@ -37,7 +37,7 @@ void Core::reset(std::uint32_t vectors) {
 
 Core::Stop Core::run() {
   for (;;) {
-    if (const int due = nvic_.due(masks())) enter(due);
+    if (const int exception = due()) enter(exception);
     if (locked_up_) return Stop::kLockedUp;
     switch (cpu_.run()) {
       case Cpu::Stop::kSleep:
@@ -129,7 +129,7 @@ void Core::return_from_exception() {
       cpu_.set_masks(m);
     }
   }
-  if (const int due = nvic_.due(masks())) return tail_chain(due, value);
+  if (const int exception = due()) return tail_chain(exception, value);
   std::array<std::uint32_t, 8> words{};
   cpu_.read_memory(r.sp, words.data(), sizeof words);
   const bool fp = (value & kNoFp) == 0;

@@ -27,7 +27,7 @@ class Core {
   /// As after a reset: stack pointer and start from the vectors at `vectors`.
   void reset(std::uint32_t vectors);
   /// Whether an interrupt ends the sleep.
-  bool wakes() const { return nvic_.wakes(masks()); }
+  bool wakes() const { return nvic_.some_pending() && nvic_.wakes(masks()); }
   /// Until it sleeps and nothing is due.
   Stop run();
 
@@ -37,6 +37,8 @@ class Core {
 
  private:
   Masks masks() const;
+  /// The exception to be taken now; 0 where there is none.
+  int due() const { return nvic_.some_pending() ? nvic_.due(masks()) : 0; }
   void enter(int exception);
   void tail_chain(int exception, std::uint32_t exception_return);
   void go_to_handler(int exception, CoreRegisters registers);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tools/emulator/system_control.h"
+#include "tools/emulator/unicorn_stores.h"
 
 namespace hoof::tools::emulator {
 namespace {
@@ -25,7 +26,7 @@ void require(uc_err error, const char* what) {
 
 }  // namespace
 
-struct Cpu::Machine {
+struct Cpu::Machine final : DataPages {
   struct Window {
     Machine& machine;
     RegisterSpace& space;
@@ -45,6 +46,8 @@ struct Cpu::Machine {
     std::uint32_t base;
     std::uint32_t size;
     std::unique_ptr<std::uint8_t[], Free> bytes;
+    bool writable;
+    std::set<std::uint32_t> executable = {};  // of memory that can be written: pages, by address
   };
 
   struct Flash {
@@ -86,6 +89,44 @@ struct Cpu::Machine {
       if (within(f.base, f.bytes.size())) return f.bytes.data() + (address - f.base);
     }
     return nullptr;
+  }
+
+  /// Stores are fast only where no code may be, so memory that can be written becomes executable
+  /// page by page, once the core goes there.
+  /// @return false where that is not the reason of the fault
+  bool make_executable(std::uint32_t address) {
+    for (Memory& m : memories) {
+      if (address - m.base >= m.size || !m.writable) continue;
+      const std::uint32_t page = address & ~std::uint32_t{Memory::kPage - 1};
+      if (!m.executable.insert(page).second) return false;
+      require(uc_mem_unmap(engine, m.base, m.size), "unmap memory");
+      map(m);
+      return true;
+    }
+    return false;
+  }
+
+  bool plain_data(std::uint32_t address) const override {
+    const std::uint32_t page = address & ~std::uint32_t{Memory::kPage - 1};
+    for (const Memory& m : memories) {
+      if (address - m.base < m.size) return m.writable && !m.executable.contains(page);
+    }
+    return false;
+  }
+
+  /// In pieces of equal rights.
+  void map(const Memory& m) {
+    const auto rights_at = [&](std::uint32_t page) {
+      return std::uint32_t(m.executable.contains(page) ? UC_PROT_ALL
+                                                       : UC_PROT_READ | UC_PROT_WRITE);
+    };
+    const std::uint32_t end = m.base + m.size;
+    for (std::uint32_t from = m.base, to = from; from < end; from = to) {
+      const std::uint32_t rights = rights_at(from);
+      while (to < end && rights_at(to) == rights) to += Memory::kPage;
+      require(uc_mem_map_ptr(engine, from, to - from, rights, m.bytes.get() + (from - m.base)),
+              "map memory");
+    }
   }
 
   /// Exceptions must not pass through the emulator's code.
@@ -181,10 +222,15 @@ Cpu::Cpu(std::function<bool()> interrupt_waits) : machine_(std::make_unique<Mach
 Cpu::~Cpu() = default;
 
 void Cpu::map_memory(std::uint32_t base, std::uint32_t bytes, Access access) {
-  const std::uint32_t rights = access == Access::kAll ? UC_PROT_ALL : UC_PROT_READ | UC_PROT_EXEC;
-  Machine::Memory memory{base, bytes, {}};
+  Machine::Memory memory{base, bytes, {}, access == Access::kAll};
   memory.bytes.reset(new (std::align_val_t{Machine::Memory::kPage}) std::uint8_t[bytes]());
-  require(uc_mem_map_ptr(machine_->engine, base, bytes, rights, memory.bytes.get()), "map memory");
+  if (memory.writable) {
+    machine_->map(memory);
+  } else {
+    require(uc_mem_map_ptr(machine_->engine, base, bytes, UC_PROT_READ | UC_PROT_EXEC,
+                           memory.bytes.get()),
+            "map memory");
+  }
   machine_->memories.push_back(std::move(memory));
 }
 
@@ -200,6 +246,9 @@ void Cpu::map_flash(std::uint32_t base, std::span<std::uint8_t> memory, Register
   require(uc_mem_map_ptr(machine_->engine, base, memory.size(), UC_PROT_READ | UC_PROT_EXEC,
                          memory.data()),
           "map flash");
+  // Of memory of the caller's Unicorn only notes the rights; this makes it drop the stores.
+  require(uc_mem_protect(machine_->engine, base, memory.size(), UC_PROT_READ | UC_PROT_EXEC),
+          "make flash read-only");
   machine_->flashes.push_back({writes, base, memory});
 }
 
@@ -303,9 +352,13 @@ Cpu::Stop Cpu::run() {
   m.blocks = 0;
   m.fault = {};
   std::uint32_t pc = 0;
-  uc_reg_read(m.engine, UC_ARM_REG_PC, &pc);
-  m.left_checkpoint = pc;
-  const uc_err error = uc_emu_start(m.engine, pc | 1, 0xFFFF'FFFF, 0, 0);
+  uc_err error = UC_ERR_OK;
+  const FastStores fast_stores(m);
+  do {
+    uc_reg_read(m.engine, UC_ARM_REG_PC, &pc);
+    m.left_checkpoint = pc;
+    error = uc_emu_start(m.engine, pc | 1, 0xFFFF'FFFF, 0, 0);
+  } while (error == UC_ERR_FETCH_PROT && m.make_executable(m.fault.address));
   if (m.error) std::rethrow_exception(m.error);
   if (m.requested) return Stop::kRequested;
   if (m.stuck) return Stop::kStuck;

@@ -20,7 +20,7 @@ enum Bank {
 
 void Nvic::reset() {
   state_ = {};
-  some_pending_ = false;
+  pending_.reset();
   active_.clear();
   prigroup_ = 0;
   for (const int always : {exception::kNmi, exception::kHardFault, exception::kSvCall,
@@ -64,13 +64,11 @@ int Nvic::running_priority(const Masks& masks) const {
 }
 
 int Nvic::highest_pending() const {
-  if (!some_pending_) return 0;
+  if (!some_pending()) return 0;
   int best = 0;
-  some_pending_ = false;
   for (int e = exception::kNmi; e < kExceptions; ++e) {
-    const State& s = state_[std::size_t(e)];
-    some_pending_ = some_pending_ || s.pending;
-    if (s.pending && s.enabled && (best == 0 || priority(e) < priority(best))) best = e;
+    if (!pending(e) || !enabled(e)) continue;
+    if (best == 0 || priority(e) < priority(best)) best = e;
   }
   return best;
 }
@@ -87,9 +85,8 @@ bool Nvic::wakes(const Masks& masks) const {
 }
 
 void Nvic::activate(int exception) {
-  State& s = state_[std::size_t(exception)];
-  s.pending = false;
-  s.active = true;
+  unpend(exception);
+  state_[std::size_t(exception)].active = true;
   active_.push_back(exception);
 }
 
@@ -109,7 +106,7 @@ void Nvic::for_each_bit(std::uint32_t word, std::uint32_t value, Act&& act) {
       throw EmulatorError("NVIC: interrupt " + std::to_string(interrupt) + " is not there; 0 to " +
                           std::to_string(kInterrupts - 1) + " are");
     }
-    act(state_[exception::kFirstInterrupt + interrupt]);
+    act(int(exception::kFirstInterrupt + interrupt));
   }
 }
 
@@ -131,7 +128,7 @@ std::uint32_t Nvic::read(std::uint32_t offset) {
     if (interrupt >= kInterrupts) break;
     const State& s = state_[exception::kFirstInterrupt + interrupt];
     const bool set = bank <= kClearEnable    ? s.enabled
-                     : bank <= kClearPending ? s.pending
+                     : bank <= kClearPending ? pending(int(exception::kFirstInterrupt + interrupt))
                                              : s.active;
     value |= std::uint32_t{set} << bit;
   }
@@ -152,14 +149,16 @@ void Nvic::write(std::uint32_t offset, std::uint32_t value) {
   if (word > 2) no_such_register(offset);
   switch (offset & ~0x7Fu) {
     case kSetEnable:
-      return for_each_bit(word, value, [](State& s) { s.enabled = true; });
+      return for_each_bit(word, value, [this](int e) { enable(e, true); });
     case kClearEnable:
-      return for_each_bit(word, value, [](State& s) { s.enabled = false; });
+      return for_each_bit(word, value, [this](int e) { enable(e, false); });
     case kSetPending:
-      some_pending_ = true;
-      return for_each_bit(word, value, [](State& s) { s.pending = true; });
+      return for_each_bit(word, value, [this](int e) { pend(e); });
     case kClearPending:
-      return for_each_bit(word, value, [](State& s) { s.pending = s.line && !s.active; });
+      return for_each_bit(word, value, [this](int e) {
+        const State& s = state_[std::size_t(e)];
+        pending_.set(std::size_t(e), s.line && !s.active);
+      });
     default:
       no_such_register(offset);
   }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <bitset>
 #include <cstdint>
 #include <vector>
 
@@ -43,12 +44,11 @@ class Nvic final : public Peripheral {
   void write(std::uint32_t offset, std::uint32_t value) override;
   void reset() override;
 
-  void pend(int exception) {
-    state_[std::size_t(exception)].pending = true;
-    some_pending_ = true;
-  }
-  void unpend(int exception) { state_[std::size_t(exception)].pending = false; }
-  bool pending(int exception) const { return state_[std::size_t(exception)].pending; }
+  void pend(int exception) { pending_.set(std::size_t(exception)); }
+  void unpend(int exception) { pending_.reset(std::size_t(exception)); }
+  bool pending(int exception) const { return pending_.test(std::size_t(exception)); }
+  /// False where nothing is due, whatever the masks are.
+  bool some_pending() const { return pending_.any(); }
   /// An interrupt's request line. High it stays pending until it is served; still high at the end
   /// of its handler it is pending again.
   void set_line(int exception, bool high);
@@ -81,7 +81,6 @@ class Nvic final : public Peripheral {
 
  private:
   struct State {
-    bool pending = false;
     bool enabled = false;
     bool line = false;
     bool active = false;
@@ -93,9 +92,9 @@ class Nvic final : public Peripheral {
   void for_each_bit(std::uint32_t word, std::uint32_t value, Act&& act);
 
   std::array<State, kExceptions> state_{};
+  std::bitset<kExceptions> pending_;
   std::vector<int> active_;
   std::uint32_t prigroup_ = 0;
-  mutable bool some_pending_ = false;  // false: certainly none
 };
 
 }  // namespace hoof::tools::emulator

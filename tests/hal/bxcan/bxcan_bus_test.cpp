@@ -212,6 +212,27 @@ TEST_CASE("bxCAN counts what was acknowledged as sent, not what was aborted") {
   CHECK(rig.bus.status().sent == 1);
 }
 
+TEST_CASE("bxCAN interrupts for a frame that left once, and only where one found no room") {
+  Rig rig;
+  rig.join();
+  const auto on = [&] {
+    return (rig.can.registers.IER.stored() & hal::bxcan::ier::kMailboxEmpty) != 0;
+  };
+  for (std::uint32_t id = 0x30; id < 0x33; ++id) {
+    REQUIRE(rig.bus.send(data_frame(id)) == SendResult::kQueued);
+    CHECK_FALSE(on());
+  }
+  CHECK(rig.bus.send(data_frame(0x33)) == SendResult::kFull);
+  CHECK(on());
+  rig.can.transmit();
+  CHECK(on());
+  rig.bus.on_transmit_interrupt();
+  CHECK_FALSE(on());
+  CHECK(rig.bus.send(data_frame(0x33)) == SendResult::kQueued);
+  CHECK_FALSE(on());
+  CHECK(rig.bus.status().sent == 1);
+}
+
 TEST_CASE("bxCAN empties both FIFOs in order, with the time of arrival") {
   Rig rig;
   rig.join();
