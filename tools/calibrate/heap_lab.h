@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +15,19 @@
 #include "sim/dem/triangle_mesh.h"
 
 namespace hoof::tools {
+
+/// A heap that tells no angle of repose. what() says why and what helps.
+class NoAngle : public std::runtime_error {
+ public:
+  NoAngle(std::string kind, const std::string& why)
+      : std::runtime_error("repose: " + why), kind_(std::move(kind)) {}
+
+  /// In a word or three, as in a row of a table: "blocked".
+  const std::string& kind() const { return kind_; }
+
+ private:
+  std::string kind_;
+};
 
 struct HeapTest {
   int grains = 3000;                                  // of the paper's grading, 2 to 6.4 mm
@@ -55,8 +69,8 @@ class HeapMaking {
 
   /// 10 ms of simulated time.
   /// @return false once the heap is at rest
-  /// @throws std::runtime_error where grains block the funnel or do not come to rest in time, and
-  /// where the heap at rest tells no angle: grown into the funnel, or a dish that did not run over
+  /// @throws NoAngle where grains block the funnel or do not come to rest in time, and where the
+  /// heap at rest tells no angle: grown into the funnel, or a dish that did not run over
   bool advance();
 
   double time_s() const;
