@@ -32,11 +32,11 @@ class NoAngle : public std::runtime_error {
 struct HeapTest {
   int grains = 3000;                                  // of the paper's grading, 2 to 6.4 mm
   std::uint64_t seed = 1;                             // of their places and order above the funnel
-  double outlet_m = 0.032;                            // diameter, 5 of the largest grains
+  double outlet_m = 0.036;                            // diameter, 5.6 of the largest grains
   double funnel_half_angle_rad = 0.5235987755982988;  // of the cone, to its axis
   double rim = 0;          // height of the dish's rim over d50 of the grading; 0: the wide plate
   double overflow = 2;     // grains poured over those that a cone of 38 degrees on the dish holds
-  double drop = 1.1;       // height of the outlet over that of the tip of a heap of 55 degrees
+  double drop = 1.8;       // height of the outlet over that of the tip of a heap of 55 degrees
   double step_s = 5.6e-6;  // 27 % of the Rayleigh time of the smallest grain
   double longest_s = 8;    // simulated time at most
 

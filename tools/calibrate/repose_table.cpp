@@ -115,6 +115,7 @@ std::string untold_text(const std::vector<HeapResult>& results, std::size_t firs
   std::map<std::string, int> kinds;
   for (std::size_t i = first; i < first + n; ++i) {
     if (!results[i].tells()) ++kinds[results[i].no_angle];
+    if (results[i].is_layer()) ++kinds["layer of 0 degrees"];
   }
   std::string text;
   for (const auto& [kind, count] : kinds) {

@@ -18,7 +18,7 @@ std::vector<ReposeRow> repose_combinations();
 std::vector<double> told_angles_deg(const std::vector<HeapResult>& results, std::size_t first,
                                     std::size_t n);
 
-/// "blocked 3, no heap 1", "" where all of them tell an angle.
+/// "blocked 3; layer of 0 degrees 1", "" where all of them are heaps that tell an angle.
 std::string untold_text(const std::vector<HeapResult>& results, std::size_t first, std::size_t n);
 
 /// 95 % of what a rank correlation becomes when rows are drawn again with replacement, and of each

@@ -11,6 +11,10 @@
 #include "tools/run/errors.h"
 #include "tools/trajectory/trajectory_command.h"
 
+namespace hoof::tools {
+void add_material_command(CLI::App& app, Invocation& invocation);
+}
+
 namespace {
 
 using namespace hoof::tools;
@@ -62,6 +66,7 @@ int main(int argc, char** argv) {
   add_compare_command(app, invocation);
   add_diagnose_command(app, invocation);
   add_simulate_command(app, invocation);
+  add_material_command(app, invocation);
   add_design_command(app, invocation);
   add_anova_command(app, invocation);
   add_calibrate_command(app, invocation);
