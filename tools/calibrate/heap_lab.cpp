@@ -12,6 +12,7 @@
 #include "sim/terrain/random.h"
 #include "tools/calibrate/lab_formulas.h"
 #include "tools/calibrate/lab_rules.h"
+#include "tools/calibrate/lab_text.h"
 #include "tools/calibrate/lane_bed.h"
 #include "tools/run/csv_writer.h"
 
@@ -235,7 +236,7 @@ bool HeapMaking::advance() {
   if (still_pieces_ >= kBlockedPieces) {
     require_room();
     throw NoAngle("blocked", std::to_string(inside) + " grains block the outlet of " +
-                                 format_number(1e3 * test_.outlet_m) + " mm" + of_seed() +
+                                 text("%g", 1e3 * test_.outlet_m) + " mm" + of_seed() +
                                  "; raise --outlet");
   }
   const bool quiet = inside == 0 && heap > 0 && ratio < kQuiet * double(heap);

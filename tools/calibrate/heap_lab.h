@@ -30,9 +30,9 @@ class NoAngle : public std::runtime_error {
 };
 
 struct HeapTest {
-  int grains = 3000;                                  // of the paper's grading, 2 to 6.4 mm
-  std::uint64_t seed = 1;                             // of their places and order above the funnel
-  double outlet_m = 0.036;                            // diameter, 5.6 of the largest grains
+  int grains = 3000;            // of the paper's grading, 2 to 6.4 mm
+  std::uint64_t seed = 1;       // of their places and order above the funnel
+  double outlet_m = 36 * 1e-3;  // diameter, 5.6 of the largest grains; the bits of --outlet 36
   double funnel_half_angle_rad = 0.5235987755982988;  // of the cone, to its axis
   double rim = 0;          // height of the dish's rim over d50 of the grading; 0: the wide plate
   double overflow = 2;     // grains poured over those that a cone of 38 degrees on the dish holds

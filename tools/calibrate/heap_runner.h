@@ -27,7 +27,7 @@ struct HeapResult {
 
   bool tells() const { return no_angle.empty(); }
   /// All of it rolled out to a layer, in which nothing stands a grain high: an angle of 0.
-  bool is_layer() const { return tells() && angle.radius_m == 0; }
+  bool is_layer() const { return tells() && angle.radius_m == 0 && angle.ring_deg == 0; }
 };
 
 /// Told the share of all work that is done and what is going on, by one thread at a time; false to

@@ -31,6 +31,11 @@ double paper_angle_deg(const ReposeRow& of) {
   return mean_of(angles);
 }
 
+/// To a hundredth, so that no bits of a conversion are in the file.
+double rounded(double value) {
+  return std::round(100 * value) / 100;
+}
+
 /// Rows of which at least one heap told an angle.
 struct Told {
   std::vector<double> paper, ours;
@@ -184,8 +189,8 @@ void add_repose_table(Findings& f, const std::vector<HeapResult>& results, std::
       const HeapResult& r = results[first + i];
       design.row({row.restitution, row.rolling_friction, row.static_friction,
                   static_cast<std::int64_t>(test.seed + i), r.angle.ring_deg, r.no_angle,
-                  static_cast<std::int64_t>(test.grains), 1e3 * test.outlet_m, 1e3 * fall_m,
-                  1e6 * test.step_s});
+                  static_cast<std::int64_t>(test.grains), rounded(1e3 * test.outlet_m),
+                  rounded(1e3 * fall_m), rounded(1e6 * test.step_s)});
     }
     first += seeds;
     if (angles.empty()) continue;

@@ -11,10 +11,6 @@
 #include "tools/run/errors.h"
 #include "tools/trajectory/trajectory_command.h"
 
-namespace hoof::tools {
-void add_material_command(CLI::App& app, Invocation& invocation);
-}
-
 namespace {
 
 using namespace hoof::tools;

@@ -31,7 +31,19 @@ std::string left_text(const Valley& v, const std::vector<Factor>& factors) {
     }
     out += f == most ? "   <- narrows it most\n" : "\n";
   }
-  return out + "  so measure next: " + kTests[most] + "\n";
+  // A set that is long in one coefficient is cut most by knowing that one, which may tell nothing
+  // of the others: both are said.
+  const auto others = [&v](std::size_t f) {
+    double sum = 0;
+    for (std::size_t o = 0; o < v.left[f].width.size(); ++o) sum += o == f ? 0 : v.left[f].width[o];
+    return sum;
+  };
+  std::size_t least = 0;
+  for (std::size_t f = 1; f < factors.size(); ++f) {
+    if (others(f) < others(least)) least = f;
+  }
+  return out + "  so measure next: " + kTests[most] + " for the smallest set;\n  " + kTests[least] +
+         " to tell most of the other two\n";
 }
 
 std::string alike(const std::string& name, const std::string& about,
