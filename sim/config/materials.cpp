@@ -1,5 +1,7 @@
 #include "sim/config/materials.h"
 
+#include "sim/config/material_card.h"
+
 namespace hoof::sim {
 namespace {
 
@@ -31,6 +33,7 @@ Materials read_materials(Reader section) {
   materials.abs = read_material(section.section("abs"));
   materials.sand_sand = read_pair(section.section("sand_sand"));
   materials.sand_abs = read_pair(section.section("sand_abs"));
+  if (section.has("card")) pass_over_card(section.section("card"));
   section.finish();
   return materials;
 }

@@ -116,6 +116,13 @@ void Reader::measured(std::string_view key, Measured& value_si, const Unit& unit
   parts.number("value", value_si.value, unit, min, max);
   value_si.sigma = 0.0;
   if (parts.has("sigma")) parts.number("sigma", value_si.sigma, unit, 0.0, max - min);
+  // Where a range is stated it holds the value; material_card.h reads it again, a run has no use
+  // for it. An absent value is told by finish().
+  double bound = 0.0;
+  const bool there = parts.has("value");
+  const double value = value_si.value * unit.denominator / unit.numerator;  // in the key's unit
+  if (parts.has("low")) parts.number("low", bound, unit, min, there ? value : max);
+  if (parts.has("high")) parts.number("high", bound, unit, there ? value : min, max);
   parts.text("source", value_si.source);
 }
 

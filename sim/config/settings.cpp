@@ -18,6 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kUsePrefix = "use.";
+constexpr std::string_view kCardPrefix = "card.";
 
 /// Section of a run and the folder of its presets.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kPresetFolders = {{
@@ -130,7 +131,10 @@ Settings Settings::load_experiment(const std::string& name_or_file,
     const fs::path folder = config_dir / preset_folder(section, entry);
     const fs::path relative_to = entry.origin.line > 0 ? file.parent_path() : fs::path();
     const fs::path preset = find_preset(folder, *name, relative_to, where);
-    run.merge(parse(read_text(preset, where), preset.string()), section);
+    Settings part = parse(read_text(preset, where), preset.string());
+    // A material's card is for its reader, and must not make another run of the same numbers.
+    std::erase_if(part.entries_, [](const auto& e) { return e.first.starts_with(kCardPrefix); });
+    run.merge(part, section);
   }
   run.merge(own);
   for (const std::string& assignment : overrides) {

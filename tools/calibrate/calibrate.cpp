@@ -1,8 +1,11 @@
 #include "tools/calibrate/calibrate.h"
 
+#include <algorithm>
 #include <iostream>
 #include <string>
 
+#include "tools/calibrate/paper_tables.h"
+#include "tools/design_of_experiments/anova_report.h"
 #include "tools/run/errors.h"
 #include "tools/run/progress_line.h"
 #include "tools/run/stop_request.h"
@@ -46,6 +49,24 @@ void run_single_grain(const std::string& laboratory, const CalibrateOptions& opt
   } catch (const std::runtime_error& error) {
     line.finish();
     throw CannotFinish(error.what());
+  }
+}
+
+/// The response surface of the heaps of table 2 and what of it gives the measured angle; files in
+/// anova/. Too few rows told for a quadratic are told, no failure.
+std::string analyse_table(const fs::path& folder) {
+  AnovaOptions anova;
+  anova.data = folder / "design.csv";
+  anova.factors = {"e_ratio", "mu_r_ratio", "mu_s_ratio"};
+  anova.response = "repose_deg";
+  anova.has_target = true;
+  anova.target = kPaperReposeMeasured_deg;
+  anova.tolerance = kPaperReposeError_deg;
+  anova.out = folder / "anova";
+  try {
+    return "\nResponse surface of these heaps:\n\n" + run_anova(anova);
+  } catch (const UserError& error) {
+    return std::string("\nNo response surface of these heaps: ") + error.what() + "\n";
   }
 }
 
@@ -97,7 +118,12 @@ void calibrate_repose(const CalibrateOptions& options, const ReposeSettings& set
                           " and the same command goes on from there",
                       stop.exit_status());
   }
+  const auto tells = [](const HeapResult& r) { return r.tells(); };
+  if (std::none_of(results.begin(), results.end(), tells)) {
+    throw CannotFinish(results.front().why);  // of all the same seeds and settings
+  }
   report(find_repose(materials, settings, cases, results), materials, folder);
+  if (settings.table2) std::cout << analyse_table(folder);
 }
 
 }  // namespace hoof::tools

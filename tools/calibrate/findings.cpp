@@ -185,6 +185,7 @@ void write_findings(const Findings& f, const sim::Materials& materials, const fs
   if (error) throw UserError("--out " + folder.string() + ": cannot be made: " + error.message());
   if (f.runs) f.runs->write_csv(folder / "runs.csv");
   if (f.rows) f.rows->write_csv(folder / (f.rows_name + ".csv"));
+  if (f.design) f.design->write_csv(folder / "design.csv");
   write_file(folder / "report.html", page(f));
   write_result_json(folder / "result.json", result(f, materials));
 }

@@ -44,8 +44,9 @@ struct Findings {
   std::string x_label, y_label;
   std::vector<PlotLine> lines;
   std::optional<Table> runs;
-  std::optional<Table> rows;  // of a table of the paper, ours beside its own
-  std::string rows_name;      // "table2": rows go to table2.csv
+  std::optional<Table> rows;    // of a table of the paper, ours beside its own
+  std::string rows_name;        // "table2": rows go to table2.csv
+  std::optional<Table> design;  // every run of them, for hoof anova: design.csv
 };
 
 /// Coefficients as flags gave them, in place of those of the material.

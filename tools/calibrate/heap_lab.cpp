@@ -12,6 +12,7 @@
 #include "sim/terrain/random.h"
 #include "tools/calibrate/lab_formulas.h"
 #include "tools/calibrate/lab_rules.h"
+#include "tools/calibrate/lab_text.h"
 #include "tools/calibrate/lane_bed.h"
 #include "tools/run/csv_writer.h"
 
@@ -234,9 +235,9 @@ bool HeapMaking::advance() {
   share_poured_ = std::max(share_poured_, poured);
   if (still_pieces_ >= kBlockedPieces) {
     require_room();
-    throw std::runtime_error("repose: " + std::to_string(inside) + " grains block the outlet of " +
-                             format_number(1e3 * test_.outlet_m) + " mm" + of_seed() +
-                             "; raise --outlet");
+    throw NoAngle("blocked", std::to_string(inside) + " grains block the outlet of " +
+                                 text("%g", 1e3 * test_.outlet_m) + " mm" + of_seed() +
+                                 "; raise --outlet");
   }
   const bool quiet = inside == 0 && heap > 0 && ratio < kQuiet * double(heap);
   quiet_pieces_ = quiet ? quiet_pieces_ + 1 : 0;
@@ -245,8 +246,8 @@ bool HeapMaking::advance() {
     return false;
   }
   if (time_s() > test_.longest_s) {
-    throw std::runtime_error("repose: not at rest after " + format_number(test_.longest_s) + " s" +
-                             of_seed());
+    throw NoAngle("not at rest",
+                  "not at rest after " + format_number(test_.longest_s) + " s" + of_seed());
   }
   return true;
 }
@@ -260,8 +261,8 @@ void HeapMaking::require_room() const {
     const bool beside = g.p_m.head<2>().norm() > 0.5 * test_.outlet_m;
     const double top_m = g.p_m.z() + g.radius_m;
     if (beside || top_m > geometry_.outlet_z_m || top_m < geometry_.outlet_z_m - kPlace_m) continue;
-    throw std::runtime_error("repose: the heap reaches the outlet of the funnel" + of_seed() +
-                             "; raise --drop");
+    throw NoAngle("grown into the outlet",
+                  "the heap reaches the outlet of the funnel" + of_seed() + "; raise --drop");
   }
 }
 
@@ -273,9 +274,9 @@ void HeapMaking::require_an_angle() const {
     if (g.p_m.z() < 0 || g.p_m.head<2>().norm() > geometry_.base_radius_m) ++over;
   }
   if (double(over) < kLeastOverflow * test_.grains) {
-    throw std::runtime_error("repose: " + std::to_string(over) + " of " +
-                             std::to_string(test_.grains) + " grains ran over the rim" + of_seed() +
-                             ": the slope is that of the filling; raise --overflow");
+    throw NoAngle("not run over", std::to_string(over) + " of " + std::to_string(test_.grains) +
+                                      " grains ran over the rim" + of_seed() +
+                                      ": the slope is that of the filling; raise --overflow");
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,14 +16,27 @@
 
 namespace hoof::tools {
 
+/// A heap that tells no angle of repose. what() says why and what helps.
+class NoAngle : public std::runtime_error {
+ public:
+  NoAngle(std::string kind, const std::string& why)
+      : std::runtime_error("repose: " + why), kind_(std::move(kind)) {}
+
+  /// In a word or three, as in a row of a table: "blocked".
+  const std::string& kind() const { return kind_; }
+
+ private:
+  std::string kind_;
+};
+
 struct HeapTest {
-  int grains = 3000;                                  // of the paper's grading, 2 to 6.4 mm
-  std::uint64_t seed = 1;                             // of their places and order above the funnel
-  double outlet_m = 0.032;                            // diameter, 5 of the largest grains
+  int grains = 3000;            // of the paper's grading, 2 to 6.4 mm
+  std::uint64_t seed = 1;       // of their places and order above the funnel
+  double outlet_m = 36 * 1e-3;  // diameter, 5.6 of the largest grains; the bits of --outlet 36
   double funnel_half_angle_rad = 0.5235987755982988;  // of the cone, to its axis
   double rim = 0;          // height of the dish's rim over d50 of the grading; 0: the wide plate
   double overflow = 2;     // grains poured over those that a cone of 38 degrees on the dish holds
-  double drop = 1.1;       // height of the outlet over that of the tip of a heap of 55 degrees
+  double drop = 1.8;       // height of the outlet over that of the tip of a heap of 55 degrees
   double step_s = 5.6e-6;  // 27 % of the Rayleigh time of the smallest grain
   double longest_s = 8;    // simulated time at most
 
@@ -55,8 +69,8 @@ class HeapMaking {
 
   /// 10 ms of simulated time.
   /// @return false once the heap is at rest
-  /// @throws std::runtime_error where grains block the funnel or do not come to rest in time, and
-  /// where the heap at rest tells no angle: grown into the funnel, or a dish that did not run over
+  /// @throws NoAngle where grains block the funnel or do not come to rest in time, and where the
+  /// heap at rest tells no angle: grown into the funnel, or a dish that did not run over
   bool advance();
 
   double time_s() const;

@@ -6,9 +6,11 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <thread>
 
@@ -54,7 +56,15 @@ void write_whole(const fs::path& file, const std::string& bytes) {
   if (error) throw UserError(file.string() + ": cannot be written: " + error.message());
 }
 
+const std::string kNone = "none ";
+
+HeapResult without_angle(double time_s, const std::string& kind, const std::string& why) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  return {{kNaN, kNaN, kNaN, kNaN, kNaN, 0}, time_s, kind, why};
+}
+
 std::string to_text(const HeapResult& r) {
+  if (!r.tells()) return kNone + format_number(r.time_s) + "\n" + r.no_angle + "\n" + r.why + "\n";
   return format_number(r.angle.ring_deg) + " " + format_number(r.angle.outline_deg) + " " +
          format_number(r.angle.sides_deg) + " " + format_number(r.angle.height_m) + " " +
          format_number(r.angle.radius_m) + " " + std::to_string(r.angle.grains_in_it) + " " +
@@ -66,6 +76,14 @@ std::optional<HeapResult> read_result(const fs::path& file) {
   HeapResult r;
   HeapAngle& a = r.angle;
   const std::string text = read_file(file);
+  if (text.starts_with(kNone)) {
+    std::istringstream lines(text.substr(kNone.size()));
+    double time_s = 0;
+    std::string kind, why;
+    lines >> time_s >> std::ws;
+    if (!std::getline(lines, kind) || !std::getline(lines, why) || kind.empty()) return {};
+    return without_angle(time_s, kind, why);
+  }
   if (std::sscanf(text.c_str(), "%lf %lf %lf %lf %lf %d %lf", &a.ring_deg, &a.outline_deg,
                   &a.sides_deg, &a.height_m, &a.radius_m, &a.grains_in_it, &r.time_s) != 7) {
     return {};  // damaged: made anew
@@ -102,7 +120,11 @@ void keep(const HeapMaking& heap, const fs::path& file) {
 
 HeapAngle angle_of(const std::vector<sim::Grain>& grains, const HeapTest& test) {
   const HeapGeometry g = heap_geometry(test);
-  return heap_angle(grains, g.rim_m > 0 ? g.base_radius_m : heap_radius_m(grains, g.d50_m));
+  try {
+    return heap_angle(grains, g.rim_m > 0 ? g.base_radius_m : heap_radius_m(grains, g.d50_m));
+  } catch (const std::invalid_argument&) {
+    return {};  // a layer: nowhere about the axis does it stand a grain high
+  }
 }
 
 /// The cases that are still to be made, shared by the threads.
@@ -157,12 +179,17 @@ class Work {
     const HeapCase& c = cases_[i];
     const fs::path snapshot = snapshot_of(c, folder_);
     const auto heap = begin(c, snapshot);
-    while (heap->advance()) {
-      if (tell(i, heap->share_poured() * (1 - kSettling))) continue;
-      keep(*heap, snapshot);
-      return {};
+    HeapResult result;
+    try {
+      while (heap->advance()) {
+        if (tell(i, heap->share_poured() * (1 - kSettling))) continue;
+        keep(*heap, snapshot);
+        return {};
+      }
+      result = {angle_of(heap->grains(), c.test), heap->time_s(), "", ""};
+    } catch (const NoAngle& none) {
+      result = without_angle(heap->time_s(), none.kind(), none.what());
     }
-    const HeapResult result{angle_of(heap->grains(), c.test), heap->time_s()};
     write_whole(file_of(c, folder_), to_text(result));
     std::error_code ignored;
     fs::remove(snapshot, ignored);

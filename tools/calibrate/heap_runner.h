@@ -21,7 +21,13 @@ struct HeapCase {
 
 struct HeapResult {
   HeapAngle angle;
-  double time_s = 0;  // simulated, until at rest
+  double time_s = 0;     // simulated, until at rest
+  std::string no_angle;  // "blocked" and the like where it tells none, then all of `angle` is NaN
+  std::string why;       // in a sentence
+
+  bool tells() const { return no_angle.empty(); }
+  /// All of it rolled out to a layer, in which nothing stands a grain high: an angle of 0.
+  bool is_layer() const { return tells() && angle.radius_m == 0 && angle.ring_deg == 0; }
 };
 
 /// Told the share of all work that is done and what is going on, by one thread at a time; false to
@@ -35,8 +41,8 @@ std::string heap_key(const HeapCase& c);
 /// `folder` is read, not made.
 /// @param threads heaps at once; each is made by one
 /// @return empty where progress said to stop: what was begun is kept in `folder` too
-/// @throws std::runtime_error of the first case that failed, UserError where files cannot be
-/// written
+/// A heap that tells no angle is a result like others, and kept.
+/// @throws UserError where files cannot be written
 std::vector<HeapResult> make_heaps(const std::vector<HeapCase>& cases,
                                    const std::filesystem::path& folder, int threads,
                                    const HeapProgress& progress);

@@ -1,45 +1,17 @@
 #include "tools/calibrate/repose.h"
 
-#include <algorithm>
-#include <cmath>
-#include <set>
 #include <string>
-#include <tuple>
 
 #include "tools/calibrate/lab_rules.h"
 #include "tools/calibrate/lab_text.h"
-#include "tools/calibrate/reduction.h"
+#include "tools/calibrate/repose_table.h"
 #include "tools/study/statistics.h"
 
 namespace hoof::tools {
 namespace {
 
 constexpr double kBand_deg = 2;
-constexpr int kSeedsForBand = 5;
-
-/// Mean of the paper's angles of one combination.
-double paper_angle_deg(const ReposeRow& of) {
-  std::vector<double> angles;
-  for (const ReposeRow& row : paper_repose_table()) {
-    if (row.restitution == of.restitution && row.rolling_friction == of.rolling_friction &&
-        row.static_friction == of.static_friction) {
-      angles.push_back(row.angle_deg);
-    }
-  }
-  return mean_of(angles);
-}
-
-std::vector<ReposeRow> combinations() {
-  std::set<std::tuple<double, double, double>> seen;
-  std::vector<ReposeRow> out;
-  for (const ReposeRow& row : paper_repose_table()) {
-    if (seen.insert({row.restitution, row.rolling_friction, row.static_friction}).second) {
-      out.push_back(
-          {row.restitution, row.rolling_friction, row.static_friction, paper_angle_deg(row)});
-    }
-  }
-  return out;
-}
+constexpr std::size_t kSeedsForBand = 5;
 
 Sample sample(const std::vector<HeapResult>& results, std::size_t first, std::size_t n,
               double HeapAngle::*of) {
@@ -60,66 +32,30 @@ Table runs_table(const std::vector<HeapCase>& cases, const std::vector<HeapResul
                {"height_mm", 2},
                {"radius_mm", 2},
                {"grains_within_count", 0},
-               {"time_s", 2}});
+               {"time_s", 2},
+               {"no_angle_name", 0}});
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const sim::ContactPair& p = cases[i].materials.sand_sand;
     const HeapAngle& a = results[i].angle;
     table.row({cases[i].name, static_cast<std::int64_t>(cases[i].test.seed), p.restitution.value,
                p.rolling_friction.value, p.static_friction.value, a.ring_deg, a.outline_deg,
                a.sides_deg, 1e3 * a.height_m, 1e3 * a.radius_m,
-               static_cast<std::int64_t>(a.grains_in_it), results[i].time_s});
+               static_cast<std::int64_t>(a.grains_in_it), results[i].time_s, results[i].no_angle});
   }
   return table;
-}
-
-/// Table 2: a row and a point each, ours over the paper's.
-void add_table2(Findings& f, const std::vector<HeapResult>& results, std::size_t seeds) {
-  Table table({{"restitution_ratio", 2},
-               {"rolling_friction_ratio", 2},
-               {"static_friction_ratio", 2},
-               {"paper_deg", 2},
-               {"ours_deg", 2},
-               {"deviation_deg", 2},
-               {"half95_deg", 2}});
-  std::vector<PaperRow> points;
-  std::vector<double> paper, ours;
-  double squares = 0, sum = 0;
-  std::size_t first = seeds;
-  for (const ReposeRow& row : combinations()) {
-    const Sample s = sample(results, first, seeds, &HeapAngle::ring_deg);
-    table.row({row.restitution, row.rolling_friction, row.static_friction, row.angle_deg, s.mean,
-               s.deviation, s.confidence});
-    points.push_back({row.angle_deg, s.mean});
-    paper.push_back(row.angle_deg), ours.push_back(s.mean);
-    squares += std::pow(s.mean - row.angle_deg, 2);
-    sum += s.mean - row.angle_deg;
-    first += seeds;
-  }
-  const double n = double(points.size());
-  const std::string of = text("table 2, its %d combinations: ", int(points.size()));
-  f.targets.push_back(
-      {of + "rms of the differences", "deg", {}, {}, {}, std::sqrt(squares / n), 2});
-  f.targets.push_back({of + "mean difference", "deg", {}, {}, {}, sum / n, 2});
-  f.targets.push_back({of + "rank correlation", "", {}, {}, {}, rank_correlation(paper, ours), 3});
-  std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
-  f.x_label = "angle of table 2, degrees";
-  f.y_label = "angle here (ring fit), degrees";
-  f.lines = {marks("combinations of table 2", points, 0),
-             dashed("the same angle", {{0, 0}, {56, 56}}, 6)};
-  f.rows = table;
-  f.rows_name = "table2";
 }
 
 void plot_seeds(Findings& f, const std::vector<HeapResult>& results, std::size_t seeds,
                 std::uint64_t first_seed) {
   std::vector<PaperRow> ring, outline;
   for (std::size_t i = 0; i < seeds; ++i) {
+    if (!results[i].tells()) continue;
     ring.push_back({double(first_seed + i), results[i].angle.ring_deg});
     outline.push_back({double(first_seed + i), results[i].angle.outline_deg});
   }
   const auto level = [&](double angle_deg) {
-    return std::vector<PaperRow>{{ring.front().x - 0.5, angle_deg},
-                                 {ring.back().x + 0.5, angle_deg}};
+    return std::vector<PaperRow>{{double(first_seed) - 0.5, angle_deg},
+                                 {double(first_seed + seeds) - 0.5, angle_deg}};
   };
   f.x_label = "seed of the heap";
   f.y_label = "angle of repose, degrees";
@@ -151,7 +87,7 @@ std::vector<HeapCase> repose_cases(const sim::Materials& materials,
   };
   add("heap", materials);
   if (!settings.table2) return cases;
-  for (const ReposeRow& row : combinations()) {
+  for (const ReposeRow& row : repose_combinations()) {
     sim::Materials m = materials;
     m.sand_sand.restitution.value = row.restitution;
     m.sand_sand.rolling_friction.value = row.rolling_friction;
@@ -193,11 +129,16 @@ Findings find_repose(const sim::Materials& materials, const ReposeSettings& sett
                   "Outline: the same range of both flanks, from 18 sides.",
                   settings.seeds, static_cast<unsigned long long>(t.seed),
                   t.rim > 0 ? "dish's" : "heap's (to where its mean height is one d50)")};
-  const bool enough = settings.seeds >= kSeedsForBand;
+  const std::string untold = untold_text(results, 0, seeds);
+  if (!untold.empty()) {
+    f.about.push_back(text("%d of %d heaps told an angle of repose; %s.", int(ring.n),
+                           settings.seeds, untold.c_str()));
+  }
+  const bool enough = ring.n >= kSeedsForBand;
   const auto bound = [&](double sign) {
     return enough ? std::optional(kPaperReposeMeasured_deg + sign * kBand_deg) : std::nullopt;
   };
-  f.targets = {{text("angle of repose, ring fit, mean of %d heaps", settings.seeds), "deg",
+  f.targets = {{text("angle of repose, ring fit, mean of %d heaps", int(ring.n)), "deg",
                 kPaperReposeMeasured_deg, bound(-1), bound(1), ring.mean, 2},
                {"the same by outline", "deg", kPaperReposeSimulated_deg, {}, {}, outline.mean, 2},
                {"scatter of heaps, standard deviation of the ring fit",
@@ -218,8 +159,8 @@ Findings find_repose(const sim::Materials& materials, const ReposeSettings& sett
        "of its optimum, e = 0.54, mu_r = 0.34, "
        "mu_s = 0.52; one heap"},
       {"grains, ring fit", ring.mean,
-       settings.seeds > 1 ? text("+- %.2f at 95 %% over %d heaps", ring.confidence, settings.seeds)
-                          : "one heap tells no scatter"},
+       ring.n > 1 ? text("+- %.2f at 95 %% over %d heaps", ring.confidence, int(ring.n))
+                  : "one heap tells no scatter"},
       {"grains, outline", outline.mean,
        "of a heap a few tens of grains wide the fit and its range decide more than a degree"}};
   f.notes = {
@@ -233,7 +174,7 @@ Findings find_repose(const sim::Materials& materials, const ReposeSettings& sett
       "table 2 (--full) is."};
   if (!enough) f.notes.push_back("The band is for 5 heaps at least; with fewer it is not judged.");
   plot_seeds(f, results, seeds, settings.test.seed);
-  if (settings.table2) add_table2(f, results, seeds);
+  if (settings.table2) add_repose_table(f, results, seeds, seeds, settings.test);
   f.runs = runs_table(cases, results);
   return f;
 }

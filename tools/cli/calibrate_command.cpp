@@ -143,14 +143,14 @@ void add_repose(CLI::App& parent, Invocation& invocation) {
   command->add_option("--seeds", o->lab.seeds, "Heaps, 1..1000 [5]")->type_name("N");
   command->add_option("--seed", o->lab.test.seed, "Of the first heap; the next count on [1]")
       ->type_name("S");
-  scaled(*command, "--outlet", o->lab.test.outlet_m, kMillimetre, "Of the funnel, diameter [32]",
+  scaled(*command, "--outlet", o->lab.test.outlet_m, kMillimetre, "Of the funnel, diameter [36]",
          "MM");
   scaled(*command, "--rim", o->lab.test.rim, 1,
          "Of a dish in place of the wide plate, its height over d50 [0: the plate]", "X");
   scaled(*command, "--overflow", o->lab.test.overflow, 1,
          "With --rim: sand poured over what a heap of 38 degrees on the dish holds [2]", "X");
   scaled(*command, "--drop", o->lab.test.drop, 1,
-         "Height of the outlet over that of the tip of a heap of 55 degrees [2.5]", "X");
+         "Height of the outlet over that of the tip of a heap of 55 degrees [1.8]", "X");
   scaled(*command, "--step", o->lab.test.step_s, 1e-6, "Time step [5.6]", "US");
   command->add_option("--threads", o->threads, "Heaps at once, 1..1024; the bytes are the same [2]")
       ->type_name("N")
@@ -163,7 +163,7 @@ void add_repose(CLI::App& parent, Invocation& invocation) {
       "  hoof calibrate repose\n"
       "  hoof calibrate repose --mu-r 0.25 --seeds 3 --out runs/less-rolling\n"
       "  hoof calibrate repose --rim 1 --out runs/dish     the foot held by a rim\n"
-      "  hoof calibrate repose --full --seeds 2      table 2, tens of minutes");
+      "  hoof calibrate repose --full --seeds 2      table 2, half an hour of a core");
   command->callback([&invocation, o] {
     invocation.run = [o] { calibrate_repose(o->common, o->lab, o->threads); };
   });

@@ -21,6 +21,7 @@ void add_diagnose_command(CLI::App& app, Invocation& invocation);
 void add_faults_command(CLI::App& app, Invocation& invocation);
 void add_firmware_command(CLI::App& app, Invocation& invocation);
 void add_log_command(CLI::App& app, Invocation& invocation);
+void add_material_command(CLI::App& app, Invocation& invocation);
 void add_order_command(CLI::App& app, Invocation& invocation);  // hoof command
 void add_param_command(CLI::App& app, Invocation& invocation);
 void add_replay_command(CLI::App& app, Invocation& invocation);

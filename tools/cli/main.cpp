@@ -62,6 +62,7 @@ int main(int argc, char** argv) {
   add_compare_command(app, invocation);
   add_diagnose_command(app, invocation);
   add_simulate_command(app, invocation);
+  add_material_command(app, invocation);
   add_design_command(app, invocation);
   add_anova_command(app, invocation);
   add_calibrate_command(app, invocation);

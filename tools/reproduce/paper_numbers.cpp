@@ -29,7 +29,7 @@ void analyse_again(const fs::path& folder) {
   anova.response = "repose_deg";
   anova.has_target = true;
   anova.target = kPaperReposeMeasured_deg;
-  anova.tolerance = 0.45;  // of the mean prediction there
+  anova.tolerance = kPaperReposeError_deg;
   anova.out = folder / "anova";
   std::cout << run_anova(anova) << "\n";
 }
@@ -39,8 +39,6 @@ ReposeSettings heaps(const TableOptions& options) {
   settings.table2 = true;
   settings.seeds = options.heaps;
   settings.test.grains = options.grains;
-  // 25 mm, 4 of the largest grains, can be blocked.
-  settings.test.outlet_m = 0.030;
   return settings;
 }
 

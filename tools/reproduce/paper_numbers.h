@@ -20,7 +20,7 @@ std::string about_figure(const std::string& name);
 struct TableOptions {
   std::filesystem::path campaign;  // the table goes to its folder NAME
   int heaps = 5;                   // of each combination of table 2
-  int grains = 1000;               // of each heap
+  int grains = 3000;               // of each heap
   int threads = 1;                 // heaps at once
   bool quiet = false;
 };

@@ -162,7 +162,6 @@ TableOptions table_options(const ReproduceOptions& options) {
   TableOptions tables;
   tables.campaign = options.folder();
   tables.heaps = options.beds;
-  tables.grains = options.ground.scale == "demo" ? 1000 : 3000;
   tables.threads = int(std::max(1U, std::thread::hardware_concurrency()));
   tables.quiet = options.quiet;
   return tables;

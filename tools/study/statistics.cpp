@@ -35,6 +35,21 @@ double rank_correlation(const std::vector<double>& a, const std::vector<double>&
   return ab / std::sqrt(aa * bb);  // 0 / 0 where one is constant
 }
 
+double kendall_correlation(const std::vector<double>& a, const std::vector<double>& b) {
+  if (a.size() != b.size()) throw std::invalid_argument("rank correlation of unequal lists");
+  const auto sign = [](double x) { return double(x > 0) - double(x < 0); };
+  double both = 0, in_a = 0, in_b = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const double da = sign(a[i] - a[j]), db = sign(b[i] - b[j]);
+      both += da * db;
+      in_a += da * da;
+      in_b += db * db;
+    }
+  }
+  return both / std::sqrt(in_a * in_b);  // 0 / 0 where one is constant
+}
+
 double student_t_975(std::size_t degrees) {
   // Student (1908), any table; 12.706 for one degree of freedom.
   constexpr std::array kT = {12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228};

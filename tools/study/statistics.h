@@ -25,6 +25,11 @@ Sample sample_of(const std::vector<double>& values);
 /// @throws std::invalid_argument where the lists are not of one length
 double rank_correlation(const std::vector<double>& a, const std::vector<double>& b);
 
+/// Kendall's (Biometrika 30 (1938) 81): pairs in the same order less those in the other one, over
+/// all; over the pairs that are not equal in either list (tau-b). NaN where a list is constant.
+/// @throws std::invalid_argument where the lists are not of one length
+double kendall_correlation(const std::vector<double>& a, const std::vector<double>& b);
+
 /// 97.5 % quantile of Student's t for the degrees of freedom; above 10 that of 10, which is larger.
 double student_t_975(std::size_t degrees);
 

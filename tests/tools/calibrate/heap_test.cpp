@@ -1,6 +1,7 @@
 // Heaps: the fit on surfaces of known slope, the closed shapes of dish and funnel, and small heaps
 // of grains that must not depend on threads or on being stopped.
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
@@ -11,7 +12,9 @@
 #include "tools/calibrate/heap_angle.h"
 #include "tools/calibrate/paper_tables.h"
 #include "tools/calibrate/repose.h"
+#include "tools/calibrate/repose_table.h"
 #include "tools/run/output_file.h"
+#include "tools/study/statistics.h"
 
 using namespace hoof;
 using namespace hoof::tools;
@@ -208,8 +211,11 @@ TEST_CASE("heaps: one that tells no angle is refused and says why") {
   const tests::ScratchFolder scratch;
   sim::Materials dull = kPaper;  // nothing bounces over the rim
   dull.sand_sand.restitution.value = dull.sand_abs.restitution.value = 0.05;
+  // The heap itself refuses; the runner keeps that as a result, with its reason.
   const auto make = [&](const HeapTest& test) {
-    make_heaps({{"heap", dull, test}}, scratch.path(), 1, {});
+    HeapMaking heap(dull, test);
+    while (heap.advance()) {
+    }
   };
   HeapTest filled = small().test;  // a dish with room for all
   filled.rim = 3, filled.overflow = 1;
@@ -219,6 +225,89 @@ TEST_CASE("heaps: one that tells no angle is refused and says why") {
   low.drop = 0.5;
   CHECK_THROWS_WITH(make(low),
                     Catch::Contains("reaches the outlet") && Catch::Contains("raise --drop"));
+  const std::vector<HeapCase> cases = {{"low", dull, low}, {"heap", kPaper, small().test}};
+  const auto made = make_heaps(cases, scratch.path(), 1, {});
+  REQUIRE(made.size() == 2);  // the one that follows is made all the same
+  CHECK(made[0].no_angle == "grown into the outlet");
+  CHECK_THAT(made[0].why, Catch::Contains("raise --drop"));
+  CHECK(std::isnan(made[0].angle.ring_deg));
+  CHECK(made[1].tells());
+  bool again = false;
+  const auto kept = make_heaps(cases, scratch.path(), 1, [&](double, const std::string&) {
+    again = true;
+    return true;
+  });
+  CHECK_FALSE(again);
+  CHECK(kept[0].no_angle == made[0].no_angle);
+  CHECK(kept[0].why == made[0].why);
+  CHECK(kept[0].time_s == made[0].time_s);
+  CHECK(same(kept[1], made[1]));
+}
+
+TEST_CASE("repose: rows without an angle have no part in rms and correlations, and say why") {
+  ReposeSettings settings;
+  settings.table2 = true;
+  const auto cases = repose_cases(kPaper, settings);
+  std::vector<HeapResult> results(cases.size());
+  const auto rows = repose_combinations();
+  const auto refuse = [](HeapResult& r, const std::string& kind) {
+    r.no_angle = kind, r.why = "repose: " + kind, r.angle.ring_deg = std::nan("");
+  };
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const std::size_t row = i / 5;  // 0: the material's own
+    results[i].angle.ring_deg = row == 0 ? 38 : rows[row - 1].angle_deg + 2;
+    if (row == 3) refuse(results[i], "blocked");
+    if (row == 5 && i % 5 < 2) refuse(results[i], "no heap");
+  }
+  refuse(results[1], "blocked");
+  const Findings f = find_repose(kPaper, settings, cases, results);
+  CHECK(f.targets[0].name.find("mean of 4 heaps") != std::string::npos);
+  CHECK_FALSE(f.targets[0].has_band());
+  CHECK(f.about.back() == "4 of 5 heaps told an angle of repose; blocked 1.");
+  REQUIRE(f.targets.size() == 10);
+  CHECK(f.targets[5].name.find("12 of its 13 combinations") != std::string::npos);
+  CHECK(f.targets[5].ours == Approx(2));  // of the 12 that tell
+  CHECK(f.targets[6].ours == Approx(2));
+  CHECK(f.targets[7].ours == Approx(1));
+  CHECK(f.targets[8].ours == Approx(1));
+  CHECK(f.targets[9].name.find("of 65") != std::string::npos);
+  CHECK(f.targets[9].ours == 58);  // 65 - 5 - 2
+  const tests::ScratchFolder scratch;
+  write_findings(f, kPaper, scratch.path());
+  const std::string csv = read_file(scratch.path() / "table2.csv");
+  CHECK(csv.find(",nan,nan,nan,0,blocked 5\n") != std::string::npos);
+  CHECK(csv.find(",3,no heap 2\n") != std::string::npos);
+  const std::string design = read_file(scratch.path() / "design.csv");
+  CHECK(std::count(design.begin(), design.end(), '\n') == 66);
+  CHECK(design.find(",nan,blocked,3000,36,") != std::string::npos);
+}
+
+TEST_CASE("repose: sand that rolls out to a layer has an angle of 0, and a row that says so") {
+  std::vector<HeapResult> three(3);
+  three[1].angle.ring_deg = 38;
+  CHECK(untold_text(three, 0, 3) == "layer of 0 degrees 2");
+  CHECK(told_angles_deg(three, 0, 3) == std::vector<double>{0, 38, 0});
+}
+
+TEST_CASE("repose: the band of a correlation holds it, is the same again, and narrows with order") {
+  const std::vector<double> paper = {1, 2, 3, 4, 5, 6, 7, 8};
+  std::vector<std::vector<double>> close, mixed;
+  for (const double p : paper) {
+    close.push_back({p - 0.1, p, p + 0.1});
+    mixed.push_back({9 - p, p, 2 * p});
+  }
+  const CorrelationBand sure = correlation_band(paper, close, rank_correlation);
+  CHECK(sure.high == Approx(1));
+  CHECK(sure.low > 0.9);  // rows drawn twice are ties of the paper that heaps break
+  const CorrelationBand loose = correlation_band(paper, mixed, rank_correlation);
+  CHECK(loose.low < 0.8);
+  const CorrelationBand again = correlation_band(paper, mixed, rank_correlation);
+  CHECK(loose.low == again.low);
+  CHECK(loose.high == again.high);
+  const CorrelationBand pairs = correlation_band(paper, mixed, kendall_correlation);
+  CHECK(pairs.low >= -1);
+  CHECK(pairs.low < pairs.high);
+  CHECK(std::isnan(correlation_band({1, 2}, {{1}, {2}}, rank_correlation).low));
 }
 
 TEST_CASE("heaps: what decides the outcome is in the key; cases are those of table 2") {
@@ -261,10 +350,12 @@ TEST_CASE("repose: table 2 beside the paper's, with rms, mean difference and ran
                                 1 + double(i % 5) - 2;
   }
   const Findings f = find_repose(kPaper, settings, cases, results);
-  REQUIRE(f.targets.size() == 8);
+  REQUIRE(f.targets.size() == 10);
   CHECK(f.targets[5].ours == Approx(std::hypot(1, 0.5)).margin(0.1));
   CHECK(f.targets[6].ours == Approx(1).margin(0.05));  // residuals of a fit have no mean
   CHECK(f.targets[7].ours > 0.97);
+  CHECK(f.targets[8].ours > 0.9);
+  CHECK(f.targets[9].ours == 65);
   REQUIRE(f.rows.has_value());
   CHECK(f.rows->rows() == 13);
   const tests::ScratchFolder scratch;
@@ -272,7 +363,7 @@ TEST_CASE("repose: table 2 beside the paper's, with rms, mean difference and ran
   const std::string csv = read_file(scratch.path() / "table2.csv");
   CHECK(
       csv.find("restitution_ratio,rolling_friction_ratio,static_friction_ratio,paper_deg,ours_deg,"
-               "deviation_deg,half95_deg") == 0);
+               "deviation_deg,half95_deg,heaps_that_tell_count,no_angle_name") == 0);
   // Five heaps one degree apart: deviation sqrt(2.5), half width t(4) sqrt(0.5) = 1.963.
   CHECK(csv.find(",1.58113883008") != std::string::npos);
 }

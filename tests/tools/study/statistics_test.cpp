@@ -37,6 +37,17 @@ TEST_CASE("rank correlation: order alone counts, ties share a rank") {
   CHECK_THROWS_AS(rank_correlation({1}, {1, 2}), std::invalid_argument);
 }
 
+TEST_CASE("kendall: pairs in order less pairs out of it, over those that are not equal") {
+  CHECK(kendall_correlation({1, 2, 3, 4}, {10, 200, 201, 1e6}) == Approx(1));
+  CHECK(kendall_correlation({1, 2, 3, 4}, {4, 1, 0, -7}) == Approx(-1));
+  // Two of ten pairs the other way round.
+  CHECK(kendall_correlation({1, 2, 3, 4, 5}, {2, 1, 3, 5, 4}) == Approx(0.6));
+  // One tie of six pairs in one list: 5 / sqrt(5 * 6).
+  CHECK(kendall_correlation({0, 7, 7, 9}, {1, 2, 3, 4}) == Approx(5 / std::sqrt(30.0)));
+  CHECK(std::isnan(kendall_correlation({1, 1, 1}, {1, 2, 3})));
+  CHECK_THROWS_AS(kendall_correlation({1}, {1, 2}), std::invalid_argument);
+}
+
 TEST_CASE("one value has no scatter that could be known; runs that failed do not count") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const Sample one = sample_of({nan, 1.5, nan});
