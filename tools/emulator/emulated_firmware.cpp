@@ -60,6 +60,7 @@ void EmulatedFirmware::act_on_board() {
 }
 
 bool EmulatedFirmware::restart(hal::ResetCause cause) {
+  board_.advance_to(start_ + cycles_of_ns(clock_.now_ns()));  // now, and not when it ran last
   cause == hal::ResetCause::kPowerOn ? board_.power_on() : board_.reset(cause);
   return true;
 }
