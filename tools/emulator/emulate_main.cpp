@@ -165,7 +165,9 @@ int main(int argc, char** argv) {
   app.footer(
       "Examples:\n"
       "  tools/hoof firmware emulate --bus vcan0 --set leg_present=0 --supply-V 48\n"
-      "  tools/hoof bridge --bus vcan0 --clock real-time --terrain rigid --experiment sinkage");
+      "  tools/hoof bridge --bus vcan0 --clock real-time --terrain rigid --experiment sinkage\n"
+      "  tools/hoof firmware emulate --bus vcan0 --flash board.flash   then, beside it:\n"
+      "  tools/hoof firmware update --bus vcan0 --image foot-2.update");
   try {
     app.parse(argc, argv);
     run(options);
