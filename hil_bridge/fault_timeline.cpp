@@ -15,6 +15,14 @@ namespace {
 // Ticks are whole milliseconds; half of one forgives the sums of floating point.
 constexpr double kHalfTick_s = 0.5e-3;
 
+// Of the drives (sim/config/drives/goat.toml); what a divider sees while nothing is wrong.
+constexpr float kSupply_V = 48.0f;
+
+/// Whether the fault says what the supply falls to: without it the early warning's line alone.
+bool measured(const FaultSpec& fault) {
+  return fault.kind == FaultKind::kBrownOut && fault.amount != 0;
+}
+
 std::unique_ptr<Flood> make_flood(const FaultSpec& fault, const FaultTarget& target) {
   auto flood = std::make_unique<Flood>();
   if (fault.kind == FaultKind::kEstop) {
@@ -95,7 +103,11 @@ void FaultTimeline::bind(LockStep& lock_step, sim::Experiment& experiment) {
   for (const auto& item : items_) {
     if (item->drive) experiment.plant().drive(*item->target.joint)->add_effect(*item->drive);
   }
-  for (const auto& item : items_) require_reach(*item);
+  for (const auto& item : items_) {
+    require_reach(*item);
+    // A board whose supply is to be measured has a divider, and measures it from the start.
+    if (measured(item->fault)) board().volts = kSupply_V;
+  }
   begin_due(0, nullptr);
 }
 
@@ -138,8 +150,8 @@ void FaultTimeline::begin(Item& item, double now_s) {
   if (item.flood) item.flood->active = true;
   if (item.fault.kind == FaultKind::kNodeRestart) restart(item);
   if (item.fault.kind == FaultKind::kBrownOut) {
-    board().volts = float(item.fault.amount);  // 0: not measured, the line alone
-    board().low = item.fault.amount == 0;
+    if (measured(item.fault)) board().volts = float(item.fault.amount);
+    board().low = !measured(item.fault);
   }
   if (item.fault.kind == FaultKind::kEstop && !item.flood) board().pressed = true;
 }
@@ -152,7 +164,7 @@ void FaultTimeline::end(Item& item, double now_s) {
   if (item.fault.kind == FaultKind::kNodeRestart && item.target.joint) restart(item);
   if (item.fault.kind == FaultKind::kBrownOut) {
     board().low = false;
-    board().volts = 0;
+    if (measured(item.fault)) board().volts = kSupply_V;
   }
   if (item.fault.kind == FaultKind::kEstop && !item.flood) board().pressed = false;
 }

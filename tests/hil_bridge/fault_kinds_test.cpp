@@ -5,6 +5,7 @@
 #include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <set>
 
 #include "firmware/protocol/codec.h"
 #include "hil_bridge/fault_timeline.h"
@@ -273,6 +274,26 @@ TEST_CASE(
   const FaultRun frame = traction("kind = \"estop\"\ntarget = \"can0\"\nat_s = 1.3\nfor_s = 0.02");
   CHECK(frame.result.reaction->faults == fault::kEmergencyStop);
   CHECK(frames_in(frame, 0x001, 1.3, 1.32).size() == 2);
+}
+
+TEST_CASE("fault kinds: a supply that is measured is 48 V before it sags and once it is back") {
+  const auto supply_V = [](const FaultRun& run, double from_s, double to_s) {
+    std::set<float> told;
+    for (const hal::CanFrame& frame : frames_in(run, 0x065, from_s, to_s)) {
+      firmware::protocol::FootLoad load;
+      REQUIRE(decode(frame, load) == firmware::protocol::DecodeResult::kOk);
+      told.insert(load.supply_V);
+    }
+    return told;
+  };
+  const std::string when = "\nat_s = 1.3\nfor_s = 0.05";
+  const FaultRun sags = traction("kind = \"brown_out\"\nsupply_V = 30" + when);
+  CHECK(supply_V(sags, 0, 1.3) == std::set<float>{48.0f});
+  CHECK(supply_V(sags, 1.311, 1.35) == std::set<float>{30.0f});
+  CHECK(supply_V(sags, 1.361, 1.5) == std::set<float>{48.0f});
+  // The early warning alone is no measurement.
+  const FaultRun warned = traction("kind = \"brown_out\"" + when);
+  CHECK(supply_V(warned, 0, 1.5) == std::set<float>{0.0f});
 }
 
 TEST_CASE("fault kinds: SYNC jitters as far as said, and no farther") {

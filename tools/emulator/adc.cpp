@@ -100,7 +100,12 @@ void Adc::start_injected() {
   ready_ = time_.now + duration();
 }
 
-/// The voltages are taken at the end: in a millisecond they do not change here.
+void Adc::set_voltages(const BoardVoltages& voltages) {
+  convert();  // what has ended saw the former ones
+  at_ = voltages;
+}
+
+/// The voltages are taken at the end: in the time of a conversion they do not change here.
 void Adc::convert() {
   if (!converting_ || time_.now < ready_) return;
   converting_ = false;

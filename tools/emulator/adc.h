@@ -37,7 +37,7 @@ class Adc final : public Peripheral {
   void write(std::uint32_t offset, std::uint32_t value) override;
   void reset() override;
 
-  void set_voltages(const BoardVoltages& voltages) { at_ = voltages; }
+  void set_voltages(const BoardVoltages& voltages);
   const BoardVoltages& voltages() const { return at_; }
   /// It begins conversions and ends none.
   void set_dead(bool dead) { dead_ = dead; }

@@ -33,7 +33,7 @@ hal::RamFlash blank_flash(std::uint32_t seed) {
   return hal::RamFlash({words, words, words, slot_words, slot_words}, seed);
 }
 
-Board::Board(ElfFile image, hal::RamFlash& flash)
+Board::Board(ElfFile image, hal::Nonvolatile& flash)
     : image_(std::move(image)), flash_(flash, time_, [this](Cycles cycles) { spend(cycles); }) {
   const auto apb1 = [this] { return rcc_.apb1_MHz(); };
   can_[0] = std::make_unique<BxCan>(1, time_, nvic_, filters_, 19, apb1);

@@ -36,8 +36,9 @@ class Board final : private RegisterSpace {
 
   /// @param image is written as a programmer would write it; into the slots only where both are
   /// blank, so that an update outlives the board as well
-  /// @param flash what sectors 1 to 3, 5 and 6 hold: outlives the board, as real flash does a supply
-  Board(ElfFile image, hal::RamFlash& flash);
+  /// @param flash what sectors 1 to 3, 5 and 6 hold: outlives the board, as real flash does a
+  /// supply
+  Board(ElfFile image, hal::Nonvolatile& flash);
 
   /// The supply comes on: RAM holds anything, the image starts. Runs until it sleeps for the first
   /// time. @throws EmulatorError

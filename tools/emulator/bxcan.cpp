@@ -49,6 +49,12 @@ void BxCan::reset() {
   update_lines();
 }
 
+void BxCan::connect(std::unique_ptr<CanWire> wire) {
+  complete_sent();
+  wire_ = std::move(wire);
+  for (Transmit& m : mailboxes_) m.offered = false;
+}
+
 bool BxCan::on_bus() const {
   return !sleeping_ && !initialising_ && !recovering_;
 }

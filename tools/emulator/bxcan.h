@@ -33,7 +33,8 @@ class BxCan final : public Peripheral {
   void write(std::uint32_t offset, std::uint32_t value) override;
   void reset() override;
 
-  void connect(std::unique_ptr<CanWire> wire) { wire_ = std::move(wire); }
+  /// What the former wire has not taken is offered to this one.
+  void connect(std::unique_ptr<CanWire> wire);
 
   /// Takes over what has happened on the wire since the last call. What does not fit into the FIFOs
   /// waits on the wire until they are emptied, or until `overrun`.

@@ -11,10 +11,10 @@
 #include "firmware/app/received_ids.h"
 #include "firmware/app/storage.h"
 #include "firmware/board/host/options.h"
-#include "hal/file_flash/file_flash.h"
 #include "hal/monotonic_clock.h"
 #include "hal/socketcan/socketcan_bus.h"
 #include "tools/emulator/emulated_firmware.h"
+#include "tools/emulator/kept_flash.h"
 #include "tools/run/sha256.h"
 
 namespace {
@@ -46,59 +46,8 @@ std::string built_image() {
   return (build / "stm32f405" / "hoof-stm32f405.elf").string();
 }
 
-/// The file has sectors of one size, the larger ones of the board in pieces of it.
-class KeptFlash {
- public:
-  KeptFlash(const std::string& path, const hal::RamFlash& like)
-      : file_(path, pieces(like), kPieceWords) {}
-
-  void read_into(hal::RamFlash& blank) const {
-    for_each_piece(blank, [&](std::size_t piece, std::size_t sector, std::size_t first) {
-      for (std::size_t i = 0; i < kPieceWords; ++i) {
-        const hal::Nonvolatile::Word word = file_.read(piece, i);
-        if (word != hal::Nonvolatile::kErased) blank.program(sector, first + i, word);
-      }
-    });
-  }
-
-  void write(const hal::RamFlash& flash) {
-    for_each_piece(flash, [&](std::size_t piece, std::size_t sector, std::size_t first) {
-      bool same = true;
-      for (std::size_t i = 0; i < kPieceWords; ++i) {
-        same = same && file_.read(piece, i) == flash.read(sector, first + i);
-      }
-      if (same) return;
-      file_.erase(piece);
-      for (std::size_t i = 0; i < kPieceWords; ++i) {
-        const hal::Nonvolatile::Word word = flash.read(sector, first + i);
-        if (word != hal::Nonvolatile::kErased) file_.program(piece, i, word);
-      }
-    });
-  }
-
- private:
-  static constexpr std::size_t kPieceWords = FlashController::kSectorBytes / 4;
-
-  template <typename Visit>
-  static void for_each_piece(const hal::RamFlash& flash, Visit visit) {
-    std::size_t piece = 0;
-    for (std::size_t sector = 0; sector < flash.sector_count(); ++sector) {
-      for (std::size_t first = 0; first < flash.sector_words(sector); first += kPieceWords) {
-        visit(piece++, sector, first);
-      }
-    }
-  }
-  static std::size_t pieces(const hal::RamFlash& flash) {
-    std::size_t count = 0;
-    for_each_piece(flash, [&count](std::size_t, std::size_t, std::size_t) { ++count; });
-    return count;
-  }
-
-  hal::FileFlash file_;
-};
-
 /// As the service would that stores parameters.
-void store_settings(const std::vector<std::string>& settings, hal::RamFlash& flash) {
+void store_settings(const std::vector<std::string>& settings, hal::Nonvolatile& flash) {
   if (settings.empty()) return;
   firmware::app::Storage storage(flash);
   firmware::app::Parameters parameters;
@@ -124,15 +73,15 @@ hal::SocketCanSettings connection(const std::string& interface, std::size_t bus)
 /// The board's time follows the wall's; it cannot go ahead of it.
 class WallClockBoard {
  public:
-  WallClockBoard(const ElfFile& image, hal::RamFlash& flash, const std::string& bus0,
+  WallClockBoard(const ElfFile& image, hal::Nonvolatile& flash, const std::string& bus0,
                  const std::string& bus1, double supply_V)
       : sockets_{hal::SocketCanBus(connection(bus0, 0)), hal::SocketCanBus(connection(bus1, 1))},
         board_(image, flash) {
     board_.set_voltages({.supply_V = supply_V});
-    board_.power_on();
     for (std::size_t bus = 0; bus < Board::kBuses; ++bus) {
       board_.connect(bus, wire_of(sockets_[bus]));
     }
+    board_.power_on();
     start_ = board_.now();
   }
 
@@ -179,12 +128,10 @@ void run(const EmulateOptions& options) {
   std::signal(SIGTERM, on_signal);
   const std::string file = options.image.empty() ? built_image() : options.image;
   const ElfFile image = read_elf_file(file);
-  hal::RamFlash flash = blank_flash();
+  hal::RamFlash lost = blank_flash();
   std::optional<KeptFlash> kept;
-  if (!options.flash.empty()) {
-    kept.emplace(options.flash, flash);
-    kept->read_into(flash);
-  }
+  if (!options.flash.empty()) kept.emplace(options.flash);
+  hal::Nonvolatile& flash = kept ? static_cast<hal::Nonvolatile&>(*kept) : lost;
   store_settings(options.settings, flash);
   const std::size_t comma = options.buses.find(',');
   const std::string bus0 = options.buses.substr(0, comma);
@@ -194,7 +141,6 @@ void run(const EmulateOptions& options) {
   std::cerr << "hoof-emulate: image sha256 " << tools::sha256_hex_of_file(file) << " runs on "
             << options.buses << "; Ctrl-C takes its power\n";
   board.run();
-  if (kept) kept->write(flash);
   board.report();
 }
 
@@ -209,8 +155,9 @@ int main(int argc, char** argv) {
   app.add_option("--image", options.image, "ELF file [the one of `hoof firmware build`]");
   app.add_option(
       "--flash", options.flash,
-      "file with the board's data sectors and image slots; made where missing, written at "
-      "the end; what was updated into it runs in place of the image");
+      "file with the board's data sectors and image slots, made where missing; holds every word "
+      "as it is written, so kill -9 is a power cut; what was updated into it runs in place of "
+      "the image [lost at the end]");
   app.add_option("--set", options.settings, "parameter as name=value, stored in its flash first");
   app.add_option("--supply-V", options.supply_V,
                  "voltage at the board's divider; below 36 the foot stops [0: nothing is wired]")
@@ -218,7 +165,9 @@ int main(int argc, char** argv) {
   app.footer(
       "Examples:\n"
       "  tools/hoof firmware emulate --bus vcan0 --set leg_present=0 --supply-V 48\n"
-      "  tools/hoof bridge --bus vcan0 --clock real-time --terrain rigid --experiment sinkage");
+      "  tools/hoof bridge --bus vcan0 --clock real-time --terrain rigid --experiment sinkage\n"
+      "  tools/hoof firmware emulate --bus vcan0 --flash board.flash   then, beside it:\n"
+      "  tools/hoof firmware update --bus vcan0 --image foot-2.update");
   try {
     app.parse(argc, argv);
     run(options);

@@ -12,8 +12,6 @@ constexpr Cycles kHeartbeatPeriod =
     firmware::protocol::spec(firmware::protocol::Message::kHeartbeat).cycle_ms *
     kCyclesPerMillisecond;
 
-constexpr double kSupply_V = 48;  // of the drives
-
 /// Its counter has four bits: this many later it is what it was in the first.
 constexpr int kHeartbeatCounts = 16;
 
@@ -55,13 +53,14 @@ void EmulatedFirmware::act_on_board() {
   if (asked_.low != acted_.low) board_.set_supply_low(asked_.low);
   if (asked_.volts != acted_.volts) {
     BoardVoltages voltages = board_.voltages();
-    voltages.supply_V = asked_.volts == 0 ? kSupply_V : double(asked_.volts);
+    voltages.supply_V = double(asked_.volts);
     board_.set_voltages(voltages);
   }
   acted_ = asked_;
 }
 
 bool EmulatedFirmware::restart(hal::ResetCause cause) {
+  board_.advance_to(start_ + cycles_of_ns(clock_.now_ns()));  // now, and not when it ran last
   cause == hal::ResetCause::kPowerOn ? board_.power_on() : board_.reset(cause);
   return true;
 }

@@ -34,7 +34,7 @@ class EmulatedFirmware final : public bridge::FirmwareNode {
   void poll(std::uint32_t tick) override;
   const firmware::app::Telemetry& telemetry() const override { return told_.latest(); }
   /// What is asked of it acts with the next poll: button, early warning, supply (0: nothing is
-  /// wired, or the 48 V are back).
+  /// wired).
   hal::SoftBoard* board() override { return &asked_; }
   bool restart(hal::ResetCause cause) override;
 

@@ -19,7 +19,7 @@ constexpr std::uint32_t kProgram = 1u << 0, kSectorErase = 1u << 1, kMassErase =
 /// taken to last this long.
 constexpr Cycles kLook = 10 * kCyclesPerMicrosecond;
 
-constexpr std::size_t kFirstSlot = 3;  // of the sectors of hal::RamFlash
+constexpr std::size_t kFirstSlot = 3;  // of the sectors that outlive the part
 constexpr std::uint32_t kFirstSlotOfPart = 5;
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "hal/in_process/ram_flash.h"
+#include "hal/nonvolatile.h"
 #include "tools/emulator/peripheral.h"
 
 namespace hoof::tools::emulator {
@@ -28,7 +28,7 @@ class FlashController final : public Peripheral {
 
   /// @param words sectors 0 to 2 the data, 3 and 4 the slots; outlives the part and its resets
   /// @param spend lets time pass for the core
-  FlashController(hal::RamFlash& words, const BoardTime& time, std::function<void(Cycles)> spend)
+  FlashController(hal::Nonvolatile& words, const BoardTime& time, std::function<void(Cycles)> spend)
       : words_(words), time_(time), spend_(std::move(spend)), slots_(kSlotsBytes, 0xFF) {}
 
   const char* name() const override { return "FLASH"; }
@@ -62,7 +62,7 @@ class FlashController final : public Peripheral {
   void write_control(std::uint32_t value);
   void erase(std::uint32_t sector);
 
-  hal::RamFlash& words_;
+  hal::Nonvolatile& words_;
   const BoardTime& time_;
   std::function<void(Cycles)> spend_;
   std::vector<std::uint8_t> slots_;

@@ -22,8 +22,8 @@ inline std::string text(const SeenFrame& s) {
 
 /// Every frame on both buses, with its time to the nanosecond.
 /// @param least_commands so many of them are drive commands, or the test compares too little
-inline void require_same(const RunRecord& host, const RunRecord& board,
-                         std::size_t least_commands) {
+inline void require_same_frames(const RunRecord& host, const RunRecord& board,
+                                std::size_t least_commands) {
   const std::size_t count = std::min(host.frames.size(), board.frames.size());
   std::size_t commands = 0;
   for (std::size_t i = 0; i < count; ++i) {
@@ -36,6 +36,12 @@ inline void require_same(const RunRecord& host, const RunRecord& board,
   }
   CHECK(host.frames.size() == board.frames.size());
   CHECK(commands >= least_commands);
+}
+
+/// The same, and the result.
+inline void require_same(const RunRecord& host, const RunRecord& board,
+                         std::size_t least_commands) {
+  require_same_frames(host, board, least_commands);
   CHECK(host.result.ticks == board.result.ticks);
   CHECK(host.result.toe_reached_rad == board.result.toe_reached_rad);
 }

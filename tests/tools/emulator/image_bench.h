@@ -7,10 +7,12 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "firmware/app/received_ids.h"
 #include "firmware/protocol/codec.h"
+#include "hal/in_process/soft_board.h"
 #include "tests/hil_bridge/rigid_bench.h"
 #include "tools/emulator/emulated_firmware.h"
 
@@ -71,6 +73,26 @@ class WakingBus final : public hal::CanBus {
   std::uint64_t sent_ = 0;
 };
 
+/// What is asked of a board, its supply as a converter tells it that is read and started anew once
+/// a millisecond, behind the turn of the loop.
+class MeasuringBoard final : public hal::Board {
+ public:
+  hal::SoftBoard asked;
+
+  void convert() { told_V_ = std::exchange(sampled_V_, asked.volts); }
+
+  hal::ResetCause reset_cause() const override { return asked.reset_cause(); }
+  void feed_watchdog() override { asked.feed_watchdog(); }
+  bool emergency_stop_pressed() const override { return asked.emergency_stop_pressed(); }
+  void allow_drives(bool allowed) override { asked.allow_drives(allowed); }
+  bool supply_low() const override { return asked.supply_low(); }
+  float supply_V() const override { return told_V_; }
+  float temperature_C() const override { return asked.temperature_C(); }
+
+ private:
+  float sampled_V_ = 0, told_V_ = 0;
+};
+
 /// The loop in this process, polled when a board's would be: after what its buses brought, where a
 /// frame waits for room also after what they took, and with SysTick every millisecond. Whoever
 /// polls more often notices sooner that something is missing.
@@ -85,17 +107,19 @@ class HostAtBoardPace final : public bridge::FirmwareNode {
   void poll(std::uint32_t) override {
     const bool for_room = loop_->waits_for_room();
     const bool by_bus0 = buses_[0].wakes(for_room), by_bus1 = buses_[1].wakes(for_room);
-    const bool by_break = board_.pressed && !was_pressed_;
-    was_pressed_ = board_.pressed;
-    if (by_bus0 || by_bus1 || by_break || clock_.now_ns() % 1'000'000 == 0) loop_->poll();
+    const bool by_break = board_.asked.pressed && !was_pressed_;
+    was_pressed_ = board_.asked.pressed;
+    const bool by_tick = clock_.now_ns() % 1'000'000 == 0;
+    if (by_bus0 || by_bus1 || by_break || by_tick) loop_->poll();
+    if (by_tick) board_.convert();
   }
   const firmware::app::Telemetry& telemetry() const override { return loop_->telemetry(); }
   firmware::control::Mode mode() const override { return loop_->mode(); }
   firmware::control::FaultBits faults() const override { return loop_->faults(); }
-  hal::SoftBoard* board() override { return &board_; }
+  hal::SoftBoard* board() override { return &board_.asked; }
   /// As a board, which polls once before it first sleeps.
   bool restart(hal::ResetCause cause) override {
-    board_.cause = cause;
+    board_.asked.cause = cause;
     start();
     loop_->poll();
     return true;
@@ -110,8 +134,9 @@ class HostAtBoardPace final : public bridge::FirmwareNode {
   std::array<WakingBus, 2> buses_;
   const hal::Clock& clock_;
   firmware::app::Parameters parameters_;
-  hal::SoftBoard board_;
+  MeasuringBoard board_;
   bool was_pressed_ = false;
+  std::int64_t polled_ns_ = 0, tick_ns_ = 0;        // last; a tick of SysTick
   std::optional<firmware::app::ControlLoop> loop_;  // always there; it can start anew
 };
 
