@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <sstream>
 
 #include "tools/report/html.h"
 #include "tools/report/page.h"
@@ -14,6 +15,21 @@ std::string digits(double value) {
   char text[32];
   std::snprintf(text, sizeof text, std::abs(value) >= 100 ? "%.0f" : "%.3g", value);
   return text;
+}
+
+/// What a bed cannot tell, without the numbers.
+std::string in_short(const std::string& reason) {
+  if (!reason.starts_with(kBedCannotTell)) return reason;
+  const std::string start = kBedCannotTell;
+  std::istringstream parts(reason.substr(start.size()));
+  std::string all, last;
+  for (std::string part; std::getline(parts, part, ';');) {
+    part = part.substr(part.find_first_not_of(' '));
+    part = part.substr(0, part.find(": "));
+    if (part != last) all += (all.empty() ? "" : "; ") + part;
+    last = part;
+  }
+  return start + all;
 }
 
 std::string table(const std::vector<Comparison>& rows) {
@@ -32,7 +48,9 @@ std::string table(const std::vector<Comparison>& rows) {
             element("td", row.ours ? digits(row.ours->deviation) : "") +
             element("td", row.ours ? std::to_string(row.ours->n) : "") +
             element("td", to_string(row.judgement())) + element("td", to_string(row.standing)) +
-            element("td", row.note) + element("td", row.reason) + "</tr>\n";
+            element("td", row.note) +
+            element("td", in_short(row.reason), " title=\"" + html_escape(row.reason) + "\"") +
+            "</tr>\n";
   }
   return html + "</table>\n";
 }
@@ -64,7 +82,7 @@ std::string summary_page(const Campaign& campaign, const ReproduceOptions& optio
                   "Lines: mean over the beds with one standard deviation; dashed: the paper's "
                   "numbers, which are simulations too. A prediction is a target that nothing of "
                   "ours was set on; an input one that the geometry, which the paper does not give, "
-                  "was chosen by.");
+                  "was chosen by. What a bed cannot tell stands with its numbers in summary.csv.");
   for (const auto& [foot, hash] : campaign.geometry_hashes()) {
     body += element("p", "Geometry of " + foot + ": SHA-256 " + hash);
   }

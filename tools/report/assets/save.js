@@ -5,7 +5,7 @@ const kPngWidth_px = 1800;
 
 function figureAsSvg(figure, width_px) {
   const svg = figure.querySelector("svg").cloneNode(true);
-  const box = svg.viewBox.baseVal;
+  const box = figure.querySelector("svg").viewBox.baseVal;
   svg.setAttribute("width", width_px);
   svg.setAttribute("height", Math.round((width_px * box.height) / box.width));
   return new XMLSerializer().serializeToString(svg);
