@@ -123,6 +123,32 @@ class WallClockBoard {
   double seconds_ = 0;
 };
 
+/// A flash file that is not there yet is made under another name, and has its own once the image is
+/// in it: whoever kills the program before that leaves no board flashed by half.
+class NewFlash {
+ public:
+  explicit NewFlash(const std::string& path)
+      : path_(path), is_new_(!path.empty() && !std::filesystem::exists(path)) {
+    if (is_new_) std::filesystem::remove(place());
+  }
+  ~NewFlash() {
+    std::error_code ignored;
+    if (is_new_) std::filesystem::remove(place(), ignored);
+  }
+  NewFlash(const NewFlash&) = delete;
+  NewFlash& operator=(const NewFlash&) = delete;
+
+  std::string place() const { return is_new_ ? path_ + ".partial" : path_; }
+  void flashed() {
+    if (is_new_) std::filesystem::rename(place(), path_);
+    is_new_ = false;
+  }
+
+ private:
+  std::string path_;
+  bool is_new_;
+};
+
 void run(const EmulateOptions& options) {
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
@@ -130,7 +156,8 @@ void run(const EmulateOptions& options) {
   const ElfFile image = read_elf_file(file);
   hal::RamFlash lost = blank_flash();
   std::optional<KeptFlash> kept;
-  if (!options.flash.empty()) kept.emplace(options.flash);
+  NewFlash new_flash(options.flash);
+  if (!options.flash.empty()) kept.emplace(new_flash.place());
   hal::Nonvolatile& flash = kept ? static_cast<hal::Nonvolatile&>(*kept) : lost;
   store_settings(options.settings, flash);
   const std::size_t comma = options.buses.find(',');
@@ -138,6 +165,7 @@ void run(const EmulateOptions& options) {
   WallClockBoard board(image, flash, bus0,
                        comma == std::string::npos ? bus0 : options.buses.substr(comma + 1),
                        options.supply_V);
+  new_flash.flashed();
   std::cerr << "hoof-emulate: image sha256 " << tools::sha256_hex_of_file(file) << " runs on "
             << options.buses << "; Ctrl-C takes its power\n";
   board.run();
