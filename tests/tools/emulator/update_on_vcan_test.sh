@@ -59,7 +59,12 @@ switch_on() {
   "$emulate" --bus vcan0 --image "$board/hoof-stm32f405.elf" --flash "$flash" --set toe_kp_Nm_rad=240 \
     >>"$folder/board.txt" 2>&1 &
   foot=$!
-  candump -n 1 -T 60000 vcan0,050:7FF >"$folder/heartbeat.txt"
+  # Time that follows the work leaps while all wait for a file, here for the board's image: that a
+  # time-out is over says nothing, so look again.
+  for _ in $(seq 300); do
+    candump -n 1 -T 1000 vcan0,050:7FF >"$folder/heartbeat.txt"
+    [ ! -s "$folder/heartbeat.txt" ] && kill -0 "$foot" 2>/dev/null || break
+  done
 }
 switch_off() {
   kill -KILL "$foot"
