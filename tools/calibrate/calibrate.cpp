@@ -4,8 +4,7 @@
 #include <iostream>
 #include <string>
 
-#include "tools/calibrate/paper_tables.h"
-#include "tools/design_of_experiments/anova_report.h"
+#include "tools/calibrate/repose_table.h"
 #include "tools/run/errors.h"
 #include "tools/run/progress_line.h"
 #include "tools/run/stop_request.h"
@@ -55,16 +54,9 @@ void run_single_grain(const std::string& laboratory, const CalibrateOptions& opt
 /// The response surface of the heaps of table 2 and what of it gives the measured angle; files in
 /// anova/. Too few rows told for a quadratic are told, no failure.
 std::string analyse_table(const fs::path& folder) {
-  AnovaOptions anova;
-  anova.data = folder / "design.csv";
-  anova.factors = {"e_ratio", "mu_r_ratio", "mu_s_ratio"};
-  anova.response = "repose_deg";
-  anova.has_target = true;
-  anova.target = kPaperReposeMeasured_deg;
-  anova.tolerance = kPaperReposeError_deg;
-  anova.out = folder / "anova";
   try {
-    return "\nResponse surface of these heaps:\n\n" + run_anova(anova);
+    return "\nResponse surface of these heaps:\n\n" +
+           analyse_repose(folder / "design.csv", folder / "anova");
   } catch (const UserError& error) {
     return std::string("\nNo response surface of these heaps: ") + error.what() + "\n";
   }

@@ -11,6 +11,7 @@
 #include "sim/terrain/random.h"
 #include "tools/calibrate/lab_text.h"
 #include "tools/calibrate/reduction.h"
+#include "tools/design_of_experiments/anova_report.h"
 #include "tools/study/statistics.h"
 
 namespace hoof::tools {
@@ -203,6 +204,18 @@ void add_repose_table(Findings& f, const std::vector<HeapResult>& results, std::
   f.rows = table;
   f.rows_name = "table2";
   f.design = design;
+}
+
+std::string analyse_repose(const std::filesystem::path& data, const std::filesystem::path& out) {
+  AnovaOptions anova;
+  anova.data = data;
+  anova.factors = {"e_ratio", "mu_r_ratio", "mu_s_ratio"};
+  anova.response = "repose_deg";
+  anova.has_target = true;
+  anova.target = kPaperReposeMeasured_deg;
+  anova.tolerance = kPaperReposeError_deg;
+  anova.out = out;
+  return run_anova(anova);
 }
 
 }  // namespace hoof::tools

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
+#include <string>
 #include <vector>
 
 #include "tools/calibrate/findings.h"
@@ -37,5 +39,10 @@ CorrelationBand correlation_band(const std::vector<double>& paper,
 /// @param test that made them, for the design's columns
 void add_repose_table(Findings& findings, const std::vector<HeapResult>& results, std::size_t first,
                       std::size_t seeds, const HeapTest& test);
+
+/// The response surface of runs with the columns e_ratio, mu_r_ratio, mu_s_ratio and repose_deg,
+/// and what of it gives the paper's measured angle, as `hoof anova` tells it.
+/// @param out folder for its files  @throws UserError where the runs are too few for a quadratic
+std::string analyse_repose(const std::filesystem::path& data, const std::filesystem::path& out);
 
 }  // namespace hoof::tools

@@ -5,7 +5,7 @@
 #include <iostream>
 
 #include "tools/calibrate/paper_tables.h"
-#include "tools/design_of_experiments/anova_report.h"
+#include "tools/calibrate/repose_table.h"
 #include "tools/run/csv_writer.h"
 
 namespace hoof::tools {
@@ -23,15 +23,7 @@ void analyse_again(const fs::path& folder) {
     csv.row({row.restitution, row.rolling_friction, row.static_friction, row.angle_deg});
   }
   csv.close();
-  AnovaOptions anova;
-  anova.data = folder / "paper.csv";
-  anova.factors = {"e_ratio", "mu_r_ratio", "mu_s_ratio"};
-  anova.response = "repose_deg";
-  anova.has_target = true;
-  anova.target = kPaperReposeMeasured_deg;
-  anova.tolerance = kPaperReposeError_deg;
-  anova.out = folder / "anova";
-  std::cout << run_anova(anova) << "\n";
+  std::cout << analyse_repose(folder / "paper.csv", folder / "paper-anova") << "\n";
 }
 
 ReposeSettings heaps(const TableOptions& options) {
