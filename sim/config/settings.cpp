@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kUsePrefix = "use.";
-constexpr std::string_view kCardPrefix = "card.";
+constexpr std::string_view kMaterials = "materials", kCardPrefix = "card.";
 
 /// Section of a run and the folder of its presets.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kPresetFolders = {{
@@ -133,7 +133,9 @@ Settings Settings::load_experiment(const std::string& name_or_file,
     const fs::path preset = find_preset(folder, *name, relative_to, where);
     Settings part = parse(read_text(preset, where), preset.string());
     // A material's card is for its reader, and must not make another run of the same numbers.
-    std::erase_if(part.entries_, [](const auto& e) { return e.first.starts_with(kCardPrefix); });
+    if (section == kMaterials) {
+      std::erase_if(part.entries_, [](const auto& e) { return e.first.starts_with(kCardPrefix); });
+    }
     run.merge(part, section);
   }
   run.merge(own);
