@@ -20,14 +20,15 @@ int Engine::jobs_at_once(int cores) const {
 }
 
 Campaign::Campaign(const std::filesystem::path& folder, std::vector<Cell> cells,
-                   std::vector<std::string> settings)
+                   const CampaignSettings& settings)
     : cells_(std::move(cells)), store_(folder), lock_(folder) {
   if (lock_.taken()) {
     throw UserError("--out " + folder.string() + ": another process is working on this campaign");
   }
   for (const Cell& cell : cells_) {
     std::vector<std::string> all = cell.overrides();
-    all.insert(all.end(), settings.begin(), settings.end());
+    const std::vector<std::string> shared = settings.of(cell.kind());
+    all.insert(all.end(), shared.begin(), shared.end());
     planned_[cell.id()] = planned_run(cell.id(), cell.kind(), all);
   }
 }

@@ -38,10 +38,9 @@ struct CampaignEnd {
 /// The cells of a plan in a folder, locked while this lives.
 class Campaign {
  public:
-  /// @param settings "dotted.key=value" for every run
   /// @throws UserError where another process works in the folder
   Campaign(const std::filesystem::path& folder, std::vector<Cell> cells,
-           std::vector<std::string> settings);
+           const CampaignSettings& settings);
 
   bool done(const Cell& cell) const { return store_.done(planned(cell)); }
 

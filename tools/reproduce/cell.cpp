@@ -101,6 +101,13 @@ std::vector<Cell> conditions(Part part, Design design) {
 
 }  // namespace
 
+std::vector<std::string> CampaignSettings::of(const std::string& kind) const {
+  std::vector<std::string> all = of_all;
+  if (kind == "sinkage") all.insert(all.end(), of_sinkage.begin(), of_sinkage.end());
+  all.insert(all.end(), asked.begin(), asked.end());
+  return all;
+}
+
 std::string Cell::condition() const {
   std::string name = kind() + "-" + foot;
   if (foot != kTraditional) name += "-toe" + std::to_string(toe_deg);

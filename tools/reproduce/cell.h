@@ -7,6 +7,15 @@
 
 namespace hoof::tools {
 
+/// What all runs of a campaign share, "dotted.key=value". Of two of a key the last counts.
+struct CampaignSettings {
+  std::vector<std::string> of_all;
+  std::vector<std::string> of_sinkage;
+  std::vector<std::string> asked;  // by the user, of all
+
+  std::vector<std::string> of(const std::string& kind) const;
+};
+
 /// A sinkage or a traction run on one bed.
 struct Cell {
   bool traction = false;

@@ -30,8 +30,8 @@ class Inquiry {
  public:
   explicit Inquiry(const ClaimsOptions& options)
       : options_(options), settings_(options.ground.settings()) {
-    settings_.insert(settings_.end(), options.settings.begin(), options.settings.end());
-    variations_ = claim_variations(settings_);
+    settings_.asked = options.settings;
+    variations_ = claim_variations(settings_.of("sinkage"));
     claims_ = chosen(paper_claims(), options.names);
     used_ = chosen(variations_, options.variations);
   }
@@ -174,7 +174,7 @@ class Inquiry {
   }
 
   const ClaimsOptions& options_;
-  std::vector<std::string> settings_;
+  CampaignSettings settings_;
   std::vector<Variation> variations_;
   std::vector<const Claim*> claims_;
   std::vector<const Variation*> used_;

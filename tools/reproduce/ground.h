@@ -14,8 +14,7 @@ struct Ground {
   std::string scale = "demo";   // preset of the bed: demo, bench, paper
   std::string terrain = "dem";  // or "rft", "rigid": quick looks that are no sand
 
-  /// Of every run, "dotted.key=value".
-  std::vector<std::string> settings() const;
+  CampaignSettings settings() const;
   /// Where nobody says another: runs/reproduce-SCALE, without grains -TERRAIN behind it.
   std::filesystem::path folder() const;
   /// Where nobody says another: what two cores can make of it in a night, else kStated.

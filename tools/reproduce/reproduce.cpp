@@ -189,8 +189,8 @@ std::vector<std::string> number_reasons(std::vector<Comparison>& rows) {
 }
 
 void run_campaign(const ReproduceOptions& options) {
-  std::vector<std::string> settings = options.ground.settings();
-  settings.insert(settings.end(), options.settings.begin(), options.settings.end());
+  CampaignSettings settings = options.ground.settings();
+  settings.asked = options.settings;
   Campaign campaign(options.folder(),
                     plan_cells(options.parts, options.design(), options.beds, options.first_bed),
                     settings);

@@ -53,10 +53,18 @@ TEST_CASE("ground: bench is a night of two cores, and its step is said to every 
   CHECK(demo.folder() == "runs/reproduce-demo");
   CHECK(quick.folder() == "runs/reproduce-bench-rft");
   const auto step_s = [](const Ground& ground) {
-    return read_run_settings("sinkage", ground.settings()).bed.step_s();
+    return read_run_settings("sinkage", ground.settings().of("sinkage")).bed.step_s();
   };
   CHECK(step_s(bench) == Approx(5.6e-6).epsilon(0.01));  // 1 ms / 180
   CHECK(step_s(paper) == Approx(2.8e-6).epsilon(0.01));
+}
+
+TEST_CASE("ground: a traction knows no rest, and what is asked for counts last") {
+  CampaignSettings settings = Ground{"bench", "dem"}.settings();
+  CHECK_NOTHROW(read_run_settings("traction", settings.of("traction")));
+  CHECK(read_run_settings("sinkage", settings.of("sinkage")).sinkage.rest_speed_m_s == 0.020);
+  settings.asked = {"experiment.rest_speed_mm_s=7"};
+  CHECK(read_run_settings("sinkage", settings.of("sinkage")).sinkage.rest_speed_m_s == 0.007);
 }
 
 TEST_CASE("plan: the night's conditions are some of the stated, and both feet of each ratio") {
