@@ -20,7 +20,7 @@ void add_claims_command(CLI::App& app, Invocation& invocation) {
                    "Only this variation besides the base; repeatable [all]")
       ->type_name("NAME")
       ->allow_extra_args(false)
-      ->check(CLI::IsMember(variation_names()).description(""));
+      ->check(CLI::IsMember(claim_variation_names()).description(""));
   add_ground_options(*command, options->ground);
   command->add_option("--beds", options->beds, "Bed preparations of each condition, 2..1000 [5]")
       ->type_name("N")

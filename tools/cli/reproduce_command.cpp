@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <map>
 #include <memory>
 
@@ -5,6 +6,7 @@
 #include "tools/cli/engine_options.h"
 #include "tools/reproduce/paper_numbers.h"
 #include "tools/reproduce/reproduce.h"
+#include "tools/reproduce/variation.h"
 
 namespace hoof::tools {
 
@@ -40,6 +42,19 @@ void add_reproduce_command(CLI::App& app, Invocation& invocation) {
   command->add_option("--seed", options->first_bed, "Of the first bed; the next count on [1]")
       ->type_name("S")
       ->check(CLI::NonNegativeNumber);
+  std::vector<std::string> variations = {"all"};
+  variations.insert(variations.end(), variation_names().begin(), variation_names().end());
+  command
+      ->add_option("--vary", options->variations,
+                   "Makes the runs with this changed too, so that the summary tells why a number "
+                   "is not the paper's; repeatable; all; hoof claims --list tells them")
+      ->type_name("NAME")
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(variations).description(""));
+  command
+      ->add_option("--vary-beds", options->variation_beds, "Beds of these, the first of --beds [2]")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000));
   add_engine_options(*command, options->engine);
   command
       ->add_option("--set", options->settings,
@@ -82,6 +97,9 @@ void add_reproduce_command(CLI::App& app, Invocation& invocation) {
         if (!wanted) continue;
         (is_paper_table(number) ? options->tables : options->figures).push_back(number);
       }
+    }
+    if (std::count(options->variations.begin(), options->variations.end(), "all") > 0) {
+      options->variations = variation_names();
     }
     options->engine.quiet = options->quiet;
     options->engine.cluster.threads = options->engine.threads.value_or(1);

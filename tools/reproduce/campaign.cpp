@@ -20,16 +20,24 @@ int Engine::jobs_at_once(int cores) const {
 }
 
 Campaign::Campaign(const std::filesystem::path& folder, std::vector<Cell> cells,
-                   const CampaignSettings& settings)
+                   const CampaignSettings& settings, const std::vector<Cell>& others)
     : cells_(std::move(cells)), store_(folder), lock_(folder) {
   if (lock_.taken()) {
     throw UserError("--out " + folder.string() + ": another process is working on this campaign");
   }
-  for (const Cell& cell : cells_) {
+  const auto plan = [&](const Cell& cell) {
     std::vector<std::string> all = cell.overrides();
     const std::vector<std::string> shared = settings.of(cell.kind());
     all.insert(all.end(), shared.begin(), shared.end());
-    planned_[cell.id()] = planned_run(cell.id(), cell.kind(), all);
+    return planned_run(cell.id(), cell.kind(), all);
+  };
+  for (const Cell& cell : cells_) planned_[cell.id()] = plan(cell);
+  for (const Cell& cell : others) {
+    if (planned_.count(cell.id()) == 1 || !std::filesystem::exists(store_.place(cell.id()))) continue;
+    const PlannedRun run = plan(cell);
+    if (!store_.has(run)) continue;
+    planned_[cell.id()] = run;
+    others_.push_back(cell);
   }
 }
 
@@ -82,11 +90,16 @@ CampaignEnd Campaign::run(const Engine& engine, const std::function<void()>& aft
 
 Outcomes Campaign::outcomes(const std::string& variation) const {
   Outcomes outcomes;
-  for (const Cell& cell : cells_) {
-    if (cell.variation != variation || !done(cell)) continue;
+  const auto read = [&](const Cell& cell) {
     const std::string id = cell.id();
     if (read_.count(id) == 0) read_[id] = read_outcome(cell.traction, store_.place(id));
     outcomes[cell.condition()][cell.bed] = read_[id];
+  };
+  for (const Cell& cell : cells_) {
+    if (cell.variation == variation && done(cell)) read(cell);
+  }
+  for (const Cell& cell : others_) {
+    if (cell.variation == variation) read(cell);
   }
   return outcomes;
 }

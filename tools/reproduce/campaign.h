@@ -38,9 +38,10 @@ struct CampaignEnd {
 /// The cells of a plan in a folder, locked while this lives.
 class Campaign {
  public:
+  /// @param others looked at where they are done with these settings, and not made
   /// @throws UserError where another process works in the folder
   Campaign(const std::filesystem::path& folder, std::vector<Cell> cells,
-           const CampaignSettings& settings);
+           const CampaignSettings& settings, const std::vector<Cell>& others = {});
 
   bool done(const Cell& cell) const { return store_.done(planned(cell)); }
 
@@ -62,6 +63,7 @@ class Campaign {
 
  private:
   std::vector<Cell> cells_;
+  std::vector<Cell> others_;
   RunStore store_;
   FolderLock lock_;
   std::map<std::string, PlannedRun> planned_;

@@ -93,9 +93,7 @@ class Inquiry {
                            const Variation* variation) {
     if (variation == nullptr) return base;
     Outcomes all = campaign.outcomes(variation->name);
-    for (const auto& [condition, beds] : base) {
-      if (varied(cell_of(condition), *variation).variation.empty()) all[condition] = beds;
-    }
+    all.merge(unchanged(base, *variation));
     return all;
   }
 
@@ -186,9 +184,13 @@ void list_claims() {
   for (const Claim& claim : paper_claims()) {
     std::printf("%-18s %s\n", claim.name.c_str(), claim.statement.c_str());
   }
-  std::printf("variations (of the bed demo):\n");
-  for (const Variation& v : claim_variations({})) {
+  const std::size_t judged = claim_variations({}).size();
+  std::size_t n = 0;
+  for (const Variation& v : all_variations({})) {
+    if (n == 0) std::printf("variations that claims are judged over (of the bed demo):\n");
+    if (n == judged) std::printf("more, of hoof reproduce --vary:\n");
     std::printf("%-18s %s: %s\n", v.name.c_str(), v.kind.c_str(), v.what.c_str());
+    ++n;
   }
 }
 

@@ -48,12 +48,10 @@ class Table {
 
   std::vector<Comparison> rows;
 
-  /// With the reason found for one that is outside: what the beds of its runs cannot tell.
+  /// Of one that is outside, with what the beds of its runs cannot tell.
   void push(Comparison row) {
     if (row.judgement() == Judgement::kOutside) {
-      for (const auto& [claim, text] : refused_) {
-        row.reason += (row.reason.empty() ? kBedCannotTell : "; ") + text;
-      }
+      for (const auto& [claim, text] : refused_) row.cannot_tell.push_back(text);
     }
     refused_.clear();
     rows.push_back(std::move(row));
@@ -326,6 +324,30 @@ Judgement Comparison::judgement() const {
   if (!ours) return Judgement::kNotRun;
   if (low == 0 && high == 0) return Judgement::kNoBand;
   return ours->mean >= low && ours->mean <= high ? Judgement::kInside : Judgement::kOutside;
+}
+
+std::string Comparison::found() const {
+  if (judgement() != Judgement::kOutside || tried.empty()) return "";
+  const auto beyond = [&](const Tried& t) {  // the band
+    return std::max({0.0, low - t.with.mean, t.with.mean - high});
+  };
+  const auto told = [](const Tried& t) {
+    return t.kind + " (" + t.name + "): " + rounded(t.with.mean) + " in place of " +
+           rounded(t.without.mean) + " on " + std::to_string(t.with.n) +
+           (t.with.n == 1 ? " bed" : " beds");
+  };
+  std::string text;
+  for (const Tried& t : tried) {
+    // A scatter of few beds that was inside before is no reason.
+    const bool was_inside = t.without.mean >= low && t.without.mean <= high;
+    if (t.inside && !was_inside) text += (text.empty() ? "inside by " : "; ") + told(t);
+  }
+  if (!text.empty()) return text;
+  const auto nearest = std::min_element(
+      tried.begin(), tried.end(),
+      [&](const Tried& a, const Tried& b) { return beyond(a) < beyond(b); });
+  return "by none of " + std::to_string(tried.size()) + " changes tried; nearest by " +
+         told(*nearest);
 }
 
 std::string to_string(Judgement judgement) {

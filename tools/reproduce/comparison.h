@@ -18,8 +18,12 @@ enum class Standing {
 
 enum class Judgement { kInside, kOutside, kNotRun, kNoBand };
 
-/// How the reason of a comparison begins; the sentences that follow are divided by "; ".
-inline constexpr const char* kBedCannotTell = "the bed cannot tell: ";
+/// What became of a target with one thing changed (tools/reproduce/reasons.h).
+struct Tried {
+  std::string kind, name, what;  // "geometry", "long-spines", in words
+  Sample with, without;          // of the same beds
+  bool inside = false;           // with the change
+};
 
 struct Comparison {
   std::string name;
@@ -29,11 +33,15 @@ struct Comparison {
   Standing standing = Standing::kPrediction;
   std::optional<Sample> ours = {};  // over beds; nothing: not run
   std::string note = {};            // what the reader must know
-  /// Of one that is outside, why, as far as it was found: what the runs' own beds say that they
-  /// cannot tell. Empty: not found out.
-  std::string reason = {};
+  /// Of one that is outside: what its runs' own beds say that they cannot tell, in sentences.
+  std::vector<std::string> cannot_tell = {};
+  /// With what was changed, whether it is outside or not.
+  std::vector<Tried> tried = {};
 
   Judgement judgement() const;
+  /// Of one that is outside, as far as it was found: each change that brings it inside, or what
+  /// came nearest. Empty: inside, or nothing was tried.
+  std::string found() const;
 };
 
 std::string to_string(Judgement judgement);

@@ -90,6 +90,7 @@ Outcome read_outcome(bool traction, const fs::path& folder) {
     }
     if (!traction) {
       o.sinkage_mm = 1e3 * j.at("max_depth_m").get<double>();
+      o.sole_sinkage_mm = 1e3 * j.at("max_sole_depth_m").get<double>();
       read_sand(j, o);
       return o;
     }

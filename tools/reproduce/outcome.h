@@ -18,7 +18,8 @@ struct ForceTrace {
 
 /// Of the other kind: zero.
 struct Outcome {
-  double sinkage_mm = 0;  // largest displacement since first contact, spines count
+  double sinkage_mm = 0;       // largest displacement since first contact, spines count
+  double sole_sinkage_mm = 0;  // the sole below the height of first contact then
   /// Of the sand at the greatest depth (tools/fields), NaN where a run kept none of it: the share
   /// of the plantar area with high pressure; the area of sand that carries over that of the foot;
   /// the stress under the gap between the toes over that under the foot.

@@ -14,7 +14,9 @@
 #include "tools/reproduce/cost.h"
 #include "tools/reproduce/figures.h"
 #include "tools/reproduce/paper_numbers.h"
+#include "tools/reproduce/reasons.h"
 #include "tools/reproduce/summary_page.h"
+#include "tools/reproduce/variation.h"
 #include "tools/run/errors.h"
 #include "tools/run/output_file.h"
 #include "tools/run/result_json.h"
@@ -41,6 +43,12 @@ std::string figure(double value) {
   return text;
 }
 
+std::string joined(const std::vector<std::string>& sentences) {
+  std::string text;
+  for (const std::string& sentence : sentences) text += (text.empty() ? "" : "; ") + sentence;
+  return text;
+}
+
 Table table_of(const std::vector<Comparison>& rows) {
   Table table({{"target_name"},
                {"unit_name"},
@@ -53,14 +61,43 @@ Table table_of(const std::vector<Comparison>& rows) {
                {"result_name"},
                {"standing_name"},
                {"note_name"},
-               {"reason_name"}});
+               {"found_name"},
+               {"bed_cannot_tell_name"}});
   for (const Comparison& row : rows) {
     const bool band = row.low != 0 || row.high != 0;
     table.row({row.name, row.unit, figure(row.paper), band ? figure(row.low) : "",
                band ? figure(row.high) : "", row.ours ? figure(row.ours->mean) : "",
                row.ours ? figure(row.ours->deviation) : "",
                std::int64_t(row.ours ? row.ours->n : 0), to_string(row.judgement()),
-               to_string(row.standing), row.note, row.reason});
+               to_string(row.standing), row.note, row.found(), joined(row.cannot_tell)});
+  }
+  return table;
+}
+
+/// Each target with each change that was tried and moves it.
+Table changes_table(const std::vector<Comparison>& rows) {
+  Table table({{"target_name"},
+               {"kind_name"},
+               {"change_name"},
+               {"what_name"},
+               {"unit_name"},
+               {"accepted_from_name"},
+               {"accepted_to_name"},
+               {"without_name"},
+               {"with_name"},
+               {"deviation_name"},
+               {"beds_count"},
+               {"result_name"}});
+  for (const Comparison& row : rows) {
+    const bool band = row.low != 0 || row.high != 0;
+    for (const Tried& t : row.tried) {
+      table.row({row.name, t.kind, t.name, t.what, row.unit, band ? figure(row.low) : "",
+                 band ? figure(row.high) : "", figure(t.without.mean), figure(t.with.mean),
+                 figure(t.with.deviation), std::int64_t(t.with.n),
+                 !band      ? to_string(Judgement::kNoBand)
+                 : t.inside ? to_string(Judgement::kInside)
+                            : to_string(Judgement::kOutside)});
+    }
   }
   return table;
 }
@@ -74,12 +111,16 @@ void write_summary(const Campaign& campaign, const ReproduceOptions& options,
   const fs::path& folder = campaign.folder();
   // CSV takes no commas within a text.
   std::vector<Comparison> plain = rows;
+  const auto without_commas = [](std::string& text) {
+    std::replace(text.begin(), text.end(), ',', ';');
+  };
   for (Comparison& row : plain) {
-    for (std::string* text : {&row.name, &row.note, &row.reason}) {
-      for (char& c : *text) c = c == ',' ? ';' : c;
-    }
+    without_commas(row.name), without_commas(row.note);
+    for (std::string& sentence : row.cannot_tell) without_commas(sentence);
+    for (Tried& t : row.tried) without_commas(t.what);
   }
   table_of(plain).write_csv(folder / "summary.csv");
+  changes_table(plain).write_csv(folder / "changes.csv");
   nlohmann::ordered_json j;
   j["scale"] = options.ground.scale, j["terrain"] = options.ground.terrain;
   j["design"] = design_name(options.design());
@@ -99,7 +140,17 @@ void write_summary(const Campaign& campaign, const ReproduceOptions& options,
     }
     r["result"] = to_string(row.judgement()), r["standing"] = to_string(row.standing);
     if (!row.note.empty()) r["note"] = row.note;
-    if (!row.reason.empty()) r["reason"] = row.reason;
+    if (!row.found().empty()) r["found"] = row.found();
+    if (!row.cannot_tell.empty()) r["bed_cannot_tell"] = row.cannot_tell;
+    for (const Tried& t : row.tried) {
+      r["tried"].push_back({{"kind", t.kind},
+                            {"name", t.name},
+                            {"what", t.what},
+                            {"with", number(t.with.mean)},
+                            {"without", number(t.without.mean)},
+                            {"beds", t.with.n},
+                            {"inside", t.inside}});
+    }
     j["targets"].push_back(r);
   }
   j["runs_made_by"] = campaign.codes();
@@ -169,37 +220,71 @@ TableOptions table_options(const ReproduceOptions& options) {
 
 /// For a terminal: what a bed cannot tell as numbers in place of sentences, which would make a row
 /// four hundred characters wide. @return the sentences, the first is number 1
-std::vector<std::string> number_reasons(std::vector<Comparison>& rows) {
+std::vector<std::string> number_sentences(std::vector<Comparison>& rows) {
   std::vector<std::string> names;
   for (Comparison& row : rows) {
-    if (!row.reason.starts_with(kBedCannotTell)) continue;
     std::set<std::size_t> numbers;
-    std::istringstream parts(row.reason.substr(std::string(kBedCannotTell).size()));
-    for (std::string part; std::getline(parts, part, ';');) {
-      const std::size_t begin = part.find_first_not_of(' ');
-      const std::string name = part.substr(begin, part.find(": ") - begin);
+    for (const std::string& sentence : row.cannot_tell) {
+      const std::string name = sentence.substr(0, sentence.find(": "));
       auto at = std::find(names.begin(), names.end(), name);
       if (at == names.end()) at = names.insert(names.end(), name);
       numbers.insert(std::size_t(at - names.begin()) + 1);
     }
-    row.reason = "bed:";
-    for (const std::size_t n : numbers) row.reason += " " + std::to_string(n);
+    std::string text;
+    for (const std::size_t n : numbers) text += (text.empty() ? "" : " ") + std::to_string(n);
+    row.cannot_tell = {text};
   }
   return names;
+}
+
+/// The plan's conditions under the variations, bed after bed. @param named empty: all
+std::vector<Cell> under(const std::vector<Variation>& variations,
+                        const std::vector<std::string>& named, const std::vector<Cell>& plan,
+                        int last_bed) {
+  std::vector<Cell> cells;
+  std::set<std::string> there;
+  for (const Cell& cell : plan) {
+    if (cell.bed > last_bed) continue;
+    for (const Variation& v : variations) {
+      if (!named.empty() && std::find(named.begin(), named.end(), v.name) == named.end()) continue;
+      const Cell other = varied(cell, v);
+      if (!other.variation.empty() && there.insert(other.id()).second) cells.push_back(other);
+    }
+  }
+  return cells;
+}
+
+std::vector<Altered> changes(const Campaign& campaign, const std::vector<Variation>& variations) {
+  const Outcomes base = campaign.outcomes();
+  std::vector<Altered> all = {read_by_sole(base)};
+  for (const Variation& v : variations) {
+    all.push_back(altered(v.kind, v.name, v.what, base, campaign.outcomes(v.name),
+                          unchanged(base, v)));
+  }
+  return all;
 }
 
 void run_campaign(const ReproduceOptions& options) {
   CampaignSettings settings = options.ground.settings();
   settings.asked = options.settings;
-  Campaign campaign(options.folder(),
-                    plan_cells(options.parts, options.design(), options.beds, options.first_bed),
-                    settings);
+  const std::vector<Variation> variations = all_variations(settings.of("sinkage"));
+  const std::vector<Cell> plan =
+      plan_cells(options.parts, options.design(), options.beds, options.first_bed);
+  std::vector<Cell> cells = plan;
+  if (!options.variations.empty()) {
+    const std::vector<Cell> more = under(variations, options.variations, plan,
+                                         options.first_bed + options.variation_beds - 1);
+    cells.insert(cells.end(), more.begin(), more.end());
+  }
+  Campaign campaign(options.folder(), cells, settings,
+                    under(variations, {}, plan, options.first_bed + options.beds - 1));
   if (options.plan_only) {
     print_plan(campaign, options);
     return;
   }
   const auto summary = [&] {
-    const std::vector<Comparison> rows = compare_with_paper(campaign.outcomes());
+    std::vector<Comparison> rows = compare_with_paper(campaign.outcomes());
+    try_changes(rows, changes(campaign, variations));
     write_summary(campaign, options, rows);
     return rows;
   };
@@ -207,11 +292,11 @@ void run_campaign(const ReproduceOptions& options) {
   std::vector<Comparison> rows = summary();
   const std::size_t all = rows.size();
   std::erase_if(rows, [](const Comparison& row) { return !row.ours; });
-  const std::vector<std::string> reasons = number_reasons(rows);
+  const std::vector<std::string> sentences = number_sentences(rows);
   std::cout << table_of(rows).markdown();
-  for (std::size_t i = 0; i < reasons.size(); ++i) {
-    std::cout << (i == 0 ? "bed: what it cannot tell, with the numbers in summary.csv\n" : "")
-              << "  " << i + 1 << " " << reasons[i] << "\n";
+  for (std::size_t i = 0; i < sentences.size(); ++i) {
+    std::cout << (i == 0 ? "what a bed cannot tell, with the numbers in summary.csv\n" : "")
+              << "  " << i + 1 << " " << sentences[i] << "\n";
   }
   if (rows.size() < all) std::cout << all - rows.size() << " more targets were not run\n";
   for (const auto& [foot, hash] : campaign.geometry_hashes()) {

@@ -22,6 +22,8 @@ struct ReproduceOptions {
   Ground ground;
   int beds = 5;
   int first_bed = 1;
+  std::vector<std::string> variations;  // that the runs are made under too
+  int variation_beds = 2;
   Engine engine;
   std::vector<std::string> settings;  // "dotted.key=value" for every run
   std::filesystem::path out;          // empty: that of the ground

@@ -82,6 +82,12 @@ RunStore::RunStore(fs::path folder) : folder_(std::move(folder)) {
   }
 }
 
+bool RunStore::has(const PlannedRun& run) const {
+  const fs::path settings = place(run.id) / "settings.toml";
+  return fs::exists(settings) &&
+         settings_hash(sim::Settings::load_file(settings)) == run.settings_sha256 && done(run);
+}
+
 bool RunStore::done(const PlannedRun& run) const {
   const fs::path result = place(run.id) / "result.json";
   const fs::path settings = place(run.id) / "settings.toml";

@@ -58,6 +58,8 @@ class RunStore {
   /// Whole and of these settings. One that is whole and of others is an error: UserError names it
   /// and the first key that differs.
   bool done(const PlannedRun& run) const;
+  /// The same, but of a run with other settings it says no.
+  bool has(const PlannedRun& run) const;
 
   /// Made or finished, and sealed. False: why_not says why.
   /// @throws Interrupted once a checkpoint is written

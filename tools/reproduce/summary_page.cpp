@@ -1,8 +1,8 @@
 #include "tools/reproduce/summary_page.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <sstream>
 
 #include "tools/report/html.h"
 #include "tools/report/page.h"
@@ -17,25 +17,71 @@ std::string digits(double value) {
   return text;
 }
 
-/// What a bed cannot tell, without the numbers.
-std::string in_short(const std::string& reason) {
-  if (!reason.starts_with(kBedCannotTell)) return reason;
-  const std::string start = kBedCannotTell;
-  std::istringstream parts(reason.substr(start.size()));
+/// What a bed cannot tell: without the numbers, and with them.
+std::string in_short(const std::vector<std::string>& sentences) {
   std::string all, last;
-  for (std::string part; std::getline(parts, part, ';');) {
-    part = part.substr(part.find_first_not_of(' '));
-    part = part.substr(0, part.find(": "));
-    if (part != last) all += (all.empty() ? "" : "; ") + part;
-    last = part;
+  for (const std::string& sentence : sentences) {
+    const std::string name = sentence.substr(0, sentence.find(": "));
+    if (name != last) all += (all.empty() ? "" : "; ") + name;
+    last = name;
   }
-  return start + all;
+  return all;
+}
+
+std::string in_full(const std::vector<std::string>& sentences) {
+  std::string all;
+  for (const std::string& sentence : sentences) all += (all.empty() ? "" : "; ") + sentence;
+  return all;
+}
+
+/// Targets by changes: what each makes of each.
+std::string changes(const std::vector<Comparison>& rows) {
+  std::vector<const Tried*> columns;
+  for (const Comparison& row : rows) {
+    for (const Tried& t : row.tried) {
+      const bool known = std::any_of(columns.begin(), columns.end(),
+                                     [&](const Tried* c) { return c->name == t.name; });
+      if (!known) columns.push_back(&t);
+    }
+  }
+  if (columns.empty()) return "";
+  std::string html = element("h2", "One thing changed") + "<dl>\n";
+  for (const Tried* c : columns) {
+    html += element("dt", c->name) + element("dd", c->kind + ": " + c->what) + "\n";
+  }
+  html += "</dl>\n<table class=\"changes\">\n<tr>" + element("th", "target") +
+          element("th", "accepted") + element("th", "ours");
+  for (const Tried* c : columns) html += element("th", c->name);
+  html += "</tr>\n";
+  for (const Comparison& row : rows) {
+    const bool band = row.low != 0 || row.high != 0;
+    if (row.tried.empty() || !band) continue;
+    html += "<tr>" + element("td", row.name) +
+            element("td", digits(row.low) + " to " + digits(row.high)) +
+            element("td", row.ours ? digits(row.ours->mean) : "",
+                    row.judgement() == Judgement::kInside ? " class=\"inside\"" : "");
+    for (const Tried* c : columns) {
+      const auto t = std::find_if(row.tried.begin(), row.tried.end(),
+                                  [&](const Tried& one) { return one.name == c->name; });
+      html += t == row.tried.end()
+                  ? element("td", "")
+                  : element("td", digits(t->with.mean),
+                            " title=\"without it " + digits(t->without.mean) + ", beds: " +
+                                std::to_string(t->with.n) + "\"" +
+                                (t->inside ? " class=\"inside\"" : ""));
+    }
+    html += "</tr>\n";
+  }
+  return html + "</table>\n" +
+         element("p", "Green: inside what is accepted. Each number is of the beds that were run "
+                      "with the change; what the same beds give without it stands behind it, and "
+                      "in changes.csv. Empty: the change is none of these runs, or was not run.");
 }
 
 std::string table(const std::vector<Comparison>& rows) {
   std::string html = "<table>\n<tr>";
   for (const char* head : {"target", "paper", "accepted", "ours", "deviation", "beds", "result",
-                           "standing", "note", "reason found"}) {
+                           "standing", "note", "found", "the bed cannot tell"}) {
     html += element("th", head);
   }
   html += "</tr>\n";
@@ -49,7 +95,9 @@ std::string table(const std::vector<Comparison>& rows) {
             element("td", row.ours ? std::to_string(row.ours->n) : "") +
             element("td", to_string(row.judgement())) + element("td", to_string(row.standing)) +
             element("td", row.note) +
-            element("td", in_short(row.reason), " title=\"" + html_escape(row.reason) + "\"") +
+            element("td", row.found()) +
+            element("td", in_short(row.cannot_tell),
+                    " title=\"" + html_escape(in_full(row.cannot_tell)) + "\"") +
             "</tr>\n";
   }
   return html + "</table>\n";
@@ -88,7 +136,7 @@ std::string summary_page(const Campaign& campaign, const ReproduceOptions& optio
   }
   std::string drawn;
   for (const Figure& figure : figures) drawn += "<figure>" + figure.svg + "</figure>\n";
-  return make_page("The paper's experiments", body + drawn + table(rows), "{}");
+  return make_page("The paper's experiments", body + drawn + table(rows) + changes(rows), "{}");
 }
 
 }  // namespace hoof::tools

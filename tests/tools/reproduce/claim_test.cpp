@@ -164,24 +164,38 @@ TEST_CASE("verdicts") {
   for (const Row& row : rows) CHECK(judge(row.base, row.varied) == row.verdict);
 }
 
-TEST_CASE("variations: three of geometry, two of grain size, three points of the valley") {
+TEST_CASE("variations: of geometry, grain size and valley, and what claims are not judged over") {
   std::set<std::string> hashes, names;
-  const Cell base = cell_of("sinkage-bionic-toe30-60kg-0.1m_s");
-  hashes.insert(settings_hash(read_run_settings(base.kind(), base.overrides()).tree));
-  const auto variations = claim_variations({});
+  const std::vector<std::string> bases = {"sinkage-bionic-toe30-60kg-0.1m_s",
+                                          "traction-bionic-toe0-0.45Hz"};
+  for (const std::string& condition : bases) {
+    const Cell cell = cell_of(condition);
+    hashes.insert(settings_hash(read_run_settings(cell.kind(), cell.overrides()).tree));
+  }
+  const auto variations = all_variations({});
   for (const Variation& v : variations) {
     INFO(v.name);
     CHECK(names.insert(v.name).second);
+    bool changes_one = false;
     for (const std::string condition :
-         {"sinkage-bionic-toe30-60kg-0.1m_s", "traction-bionic-plain-toe0-0.45Hz",
-          "traction-traditional-1.12Hz"}) {
+         {"sinkage-bionic-toe30-60kg-0.1m_s", "traction-bionic-toe0-0.45Hz",
+          "traction-bionic-plain-toe0-0.45Hz", "traction-traditional-1.12Hz"}) {
       const Cell cell = varied(cell_of(condition), v);
       const RunSettings run = read_run_settings(cell.kind(), cell.overrides());  // is a run
       // Without a change it is the base's run and shares its folder.
       CHECK(cell.changes.empty() == cell.variation.empty());
       CHECK((cell.id() == cell_of(condition).id()) == cell.changes.empty());
-      if (condition == base.condition()) CHECK(hashes.insert(settings_hash(run.tree)).second);
+      const bool base = std::count(bases.begin(), bases.end(), condition) == 1;
+      if (base && !cell.changes.empty()) CHECK(hashes.insert(settings_hash(run.tree)).second);
+      changes_one = changes_one || !cell.changes.empty();
     }
+    CHECK(changes_one);
+  }
+  const auto judged = claim_variations({});
+  CHECK(judged.size() == claim_variation_names().size());
+  for (std::size_t i = 0; i < judged.size(); ++i) {
+    CHECK(judged[i].name == claim_variation_names()[i]);
+    CHECK(judged[i].name == variations[i].name);
   }
   CHECK(std::vector<std::string>(names.begin(), names.end()) == [] {
     auto all = variation_names();
@@ -193,7 +207,7 @@ TEST_CASE("variations: three of geometry, two of grain size, three points of the
   for (const char* bed : {"demo", "bench", "paper"}) {
     const std::vector<std::string> settings = {std::string("use.bed=") + bed};
     const auto plain = read_run_settings("sinkage", settings).bed;
-    for (const Variation& v : claim_variations(settings)) {
+    for (const Variation& v : all_variations(settings)) {
       std::vector<std::string> all = settings;
       all.insert(all.end(), v.of_all.begin(), v.of_all.end());
       const auto changed = read_run_settings("sinkage", all).bed;

@@ -1,0 +1,73 @@
+#include "tools/reproduce/reasons.h"
+
+#include <cmath>
+#include <set>
+#include <utility>
+
+namespace hoof::tools {
+namespace {
+
+const Comparison* find(const std::vector<Comparison>& rows, const std::string& name) {
+  for (const Comparison& row : rows) {
+    if (row.name == name) return &row;
+  }
+  return nullptr;
+}
+
+/// Runs are deterministic: what a change is not of comes out the same to the last bit.
+bool same(const Sample& a, const Sample& b) {
+  return a.n == b.n && a.mean == b.mean;
+}
+
+}  // namespace
+
+Altered altered(std::string kind, std::string name, std::string what, const Outcomes& base,
+                const Outcomes& changed, const Outcomes& same) {
+  Altered a{std::move(kind), std::move(name), std::move(what), changed, {}};
+  std::set<int> beds;
+  for (const auto& [condition, runs] : changed) {
+    for (const auto& [bed, run] : runs) beds.insert(bed);
+  }
+  const auto of_beds = [&](const Outcomes& all, Outcomes& to) {
+    for (const auto& [condition, runs] : all) {
+      for (const auto& [bed, run] : runs) {
+        if (beds.count(bed) == 1) to[condition].emplace(bed, run);
+      }
+    }
+  };
+  of_beds(same, a.with);
+  of_beds(base, a.without);
+  return a;
+}
+
+Altered read_by_sole(const Outcomes& base) {
+  Outcomes by_sole;
+  for (const auto& [condition, runs] : base) {
+    for (const auto& [bed, run] : runs) {
+      Outcome& read = by_sole[condition].emplace(bed, run).first->second;
+      read.sinkage_mm = run.sole_sinkage_mm;
+    }
+  }
+  return altered("reading", "sole-depth",
+                 "depth counted from where the sole reaches the height of first contact, not from "
+                 "where the spines touch (the paper does not say from where)",
+                 base, by_sole, {});
+}
+
+void try_changes(std::vector<Comparison>& rows, const std::vector<Altered>& changes) {
+  for (Comparison& row : rows) row.tried.clear();
+  for (const Altered& change : changes) {
+    const std::vector<Comparison> with = compare_with_paper(change.with);
+    const std::vector<Comparison> without = compare_with_paper(change.without);
+    for (Comparison& row : rows) {
+      const Comparison* changed = find(with, row.name);
+      const Comparison* unchanged = find(without, row.name);
+      if (changed == nullptr || unchanged == nullptr || !changed->ours || !unchanged->ours) continue;
+      if (same(*changed->ours, *unchanged->ours) || !std::isfinite(changed->ours->mean)) continue;
+      row.tried.push_back({change.kind, change.name, change.what, *changed->ours, *unchanged->ours,
+                           changed->judgement() == Judgement::kInside});
+    }
+  }
+}
+
+}  // namespace hoof::tools
