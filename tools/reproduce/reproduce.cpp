@@ -190,7 +190,8 @@ std::string design_text(const ReproduceOptions& options) {
   return "";
 }
 
-void print_plan(const Campaign& campaign, const ReproduceOptions& options) {
+void print_plan(const Campaign& campaign, const ReproduceOptions& options,
+                const std::vector<Variation>& variations) {
   std::vector<PlannedRun> all, missing;
   for (const Cell& cell : campaign.cells()) {
     const bool there = campaign.done(cell);
@@ -199,6 +200,11 @@ void print_plan(const Campaign& campaign, const ReproduceOptions& options) {
     std::printf("%-8s %s\n", there ? "done" : "missing", cell.id().c_str());
   }
   std::printf("%s\n", design_text(options).c_str());
+  for (const Variation& v : variations) {
+    const auto& asked = options.variations;
+    if (std::find(asked.begin(), asked.end(), v.name) == asked.end()) continue;
+    std::printf("%s (%s): %s\n", v.name.c_str(), v.kind.c_str(), v.what.c_str());
+  }
   std::printf("%zu runs, %zu done\n", campaign.cells().size(),
               campaign.cells().size() - missing.size());
   const CostModel model(campaign.store(), all);
@@ -279,7 +285,7 @@ void run_campaign(const ReproduceOptions& options) {
   Campaign campaign(options.folder(), cells, settings,
                     under(variations, {}, plan, options.first_bed + options.beds - 1));
   if (options.plan_only) {
-    print_plan(campaign, options);
+    print_plan(campaign, options, variations);
     return;
   }
   const auto summary = [&] {

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <thread>
 
 #include "tests/tools/experiment/program.h"
@@ -187,6 +188,35 @@ TEST_CASE("claims: runs what is missing over variations, shares the base with re
   const std::string before = read_file(out / "summary.json");
   REQUIRE(run_program(campaign(out, {}, "2")).status == 0);
   CHECK(read_file(out / "summary.json") == before);
+}
+
+TEST_CASE("reproduce: runs with one thing changed are made when asked for, and counted ever after") {
+  const ScratchFolder scratch;
+  const fs::path out = scratch.path() / "campaign";
+  const Outcome asked =
+      run_program(campaign(out, {"--vary", "light-foot", "--vary-beds", "1"}, "2"));
+  INFO(asked.output);
+  REQUIRE(asked.status == 0);
+  CHECK(sealed(out) == 3 * kRuns);  // two beds, and one with it
+  const auto of_light_foot = [&] {
+    std::istringstream lines(read_file(out / "changes.csv"));
+    int count = 0;
+    for (std::string line; std::getline(lines, line);) {
+      if (line.find(",light-foot,") == std::string::npos) continue;
+      CHECK_THAT(line, Catch::Contains(",load,") && Catch::Contains("1.1 kg"));
+      ++count;
+    }
+    return count;
+  };
+  const int told = of_light_foot();
+  CHECK(told > 5);
+  CHECK_THAT(read_file(out / "report.html"), Catch::Contains("One thing changed"));
+  CHECK(run_program(campaign(out, {}, "2")).status == 0);
+  CHECK(sealed(out) == 3 * kRuns);
+  CHECK(of_light_foot() == told);
+  // Of fewer beds than the change was run on: what is not of them does not count.
+  CHECK(run_program(campaign(out, {"--seed", "2"}, "1")).status == 0);
+  CHECK(of_light_foot() == 0);
 }
 
 TEST_CASE("reproduce: a figure that cannot be drawn by its number is one line and an error") {
