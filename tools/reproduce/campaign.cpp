@@ -33,7 +33,8 @@ Campaign::Campaign(const std::filesystem::path& folder, std::vector<Cell> cells,
   };
   for (const Cell& cell : cells_) planned_[cell.id()] = plan(cell);
   for (const Cell& cell : others) {
-    if (planned_.count(cell.id()) == 1 || !std::filesystem::exists(store_.place(cell.id()))) continue;
+    if (planned_.count(cell.id()) == 1 || !std::filesystem::exists(store_.place(cell.id())))
+      continue;
     const PlannedRun run = plan(cell);
     if (!store_.has(run)) continue;
     planned_[cell.id()] = run;

@@ -343,9 +343,9 @@ std::string Comparison::found() const {
     if (t.inside && !was_inside) text += (text.empty() ? "inside by " : "; ") + told(t);
   }
   if (!text.empty()) return text;
-  const auto nearest = std::min_element(
-      tried.begin(), tried.end(),
-      [&](const Tried& a, const Tried& b) { return beyond(a) < beyond(b); });
+  const auto nearest =
+      std::min_element(tried.begin(), tried.end(),
+                       [&](const Tried& a, const Tried& b) { return beyond(a) < beyond(b); });
   return "by none of " + std::to_string(tried.size()) + " changes tried; nearest by " +
          told(*nearest);
 }

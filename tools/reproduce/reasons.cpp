@@ -62,7 +62,8 @@ void try_changes(std::vector<Comparison>& rows, const std::vector<Altered>& chan
     for (Comparison& row : rows) {
       const Comparison* changed = find(with, row.name);
       const Comparison* unchanged = find(without, row.name);
-      if (changed == nullptr || unchanged == nullptr || !changed->ours || !unchanged->ours) continue;
+      if (changed == nullptr || unchanged == nullptr || !changed->ours || !unchanged->ours)
+        continue;
       if (same(*changed->ours, *unchanged->ours) || !std::isfinite(changed->ours->mean)) continue;
       row.tried.push_back({change.kind, change.name, change.what, *changed->ours, *unchanged->ours,
                            changed->judgement() == Judgement::kInside});

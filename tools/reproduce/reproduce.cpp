@@ -264,8 +264,8 @@ std::vector<Altered> changes(const Campaign& campaign, const std::vector<Variati
   const Outcomes base = campaign.outcomes();
   std::vector<Altered> all = {read_by_sole(base)};
   for (const Variation& v : variations) {
-    all.push_back(altered(v.kind, v.name, v.what, base, campaign.outcomes(v.name),
-                          unchanged(base, v)));
+    all.push_back(
+        altered(v.kind, v.name, v.what, base, campaign.outcomes(v.name), unchanged(base, v)));
   }
   return all;
 }
@@ -278,8 +278,8 @@ void run_campaign(const ReproduceOptions& options) {
       plan_cells(options.parts, options.design(), options.beds, options.first_bed);
   std::vector<Cell> cells = plan;
   if (!options.variations.empty()) {
-    const std::vector<Cell> more = under(variations, options.variations, plan,
-                                         options.first_bed + options.variation_beds - 1);
+    const std::vector<Cell> more =
+        under(variations, options.variations, plan, options.first_bed + options.variation_beds - 1);
     cells.insert(cells.end(), more.begin(), more.end());
   }
   Campaign campaign(options.folder(), cells, settings,
@@ -301,8 +301,8 @@ void run_campaign(const ReproduceOptions& options) {
   const std::vector<std::string> sentences = number_sentences(rows);
   std::cout << table_of(rows).markdown();
   for (std::size_t i = 0; i < sentences.size(); ++i) {
-    std::cout << (i == 0 ? "what a bed cannot tell, with the numbers in summary.csv\n" : "")
-              << "  " << i + 1 << " " << sentences[i] << "\n";
+    std::cout << (i == 0 ? "what a bed cannot tell, with the numbers in summary.csv\n" : "") << "  "
+              << i + 1 << " " << sentences[i] << "\n";
   }
   if (rows.size() < all) std::cout << all - rows.size() << " more targets were not run\n";
   for (const auto& [foot, hash] : campaign.geometry_hashes()) {

@@ -63,19 +63,19 @@ std::string changes(const std::vector<Comparison>& rows) {
     for (const Tried* c : columns) {
       const auto t = std::find_if(row.tried.begin(), row.tried.end(),
                                   [&](const Tried& one) { return one.name == c->name; });
-      html += t == row.tried.end()
-                  ? element("td", "")
-                  : element("td", digits(t->with.mean),
-                            " title=\"without it " + digits(t->without.mean) + ", beds: " +
-                                std::to_string(t->with.n) + "\"" +
-                                (t->inside ? " class=\"inside\"" : ""));
+      html += t == row.tried.end() ? element("td", "")
+                                   : element("td", digits(t->with.mean),
+                                             " title=\"without it " + digits(t->without.mean) +
+                                                 ", beds: " + std::to_string(t->with.n) + "\"" +
+                                                 (t->inside ? " class=\"inside\"" : ""));
     }
     html += "</tr>\n";
   }
   return html + "</table>\n" +
-         element("p", "Green: inside what is accepted. Each number is of the beds that were run "
-                      "with the change; what the same beds give without it stands behind it, and "
-                      "in changes.csv. Empty: the change is none of these runs, or was not run.");
+         element("p",
+                 "Green: inside what is accepted. Each number is of the beds that were run "
+                 "with the change; what the same beds give without it stands behind it, and "
+                 "in changes.csv. Empty: the change is none of these runs, or was not run.");
 }
 
 std::string table(const std::vector<Comparison>& rows) {
@@ -94,8 +94,7 @@ std::string table(const std::vector<Comparison>& rows) {
             element("td", row.ours ? digits(row.ours->deviation) : "") +
             element("td", row.ours ? std::to_string(row.ours->n) : "") +
             element("td", to_string(row.judgement())) + element("td", to_string(row.standing)) +
-            element("td", row.note) +
-            element("td", row.found()) +
+            element("td", row.note) + element("td", row.found()) +
             element("td", in_short(row.cannot_tell),
                     " title=\"" + html_escape(in_full(row.cannot_tell)) + "\"") +
             "</tr>\n";

@@ -19,6 +19,13 @@ std::string heading(const std::string& name) {
   return symbol.empty() || symbol == "1" ? text : text + ", " + symbol;
 }
 
+/// Columns on a terminal: a unit's ° has two bytes in UTF-8.
+std::size_t width_of(const std::string& text) {
+  return std::size_t(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
+  }));
+}
+
 }  // namespace
 
 void Table::row(std::vector<Cell> cells) {
@@ -50,12 +57,12 @@ std::string Table::markdown() const {
   }
   std::vector<std::size_t> width(columns_.size(), 3);
   for (const auto& line : lines) {
-    for (std::size_t i = 0; i < line.size(); ++i) width[i] = std::max(width[i], line[i].size());
+    for (std::size_t i = 0; i < line.size(); ++i) width[i] = std::max(width[i], width_of(line[i]));
   }
   std::string text;
   for (std::size_t k = 0; k < lines.size(); ++k) {
     for (std::size_t i = 0; i < lines[k].size(); ++i) {
-      text += "| " + lines[k][i] + std::string(width[i] - lines[k][i].size(), ' ') + " ";
+      text += "| " + lines[k][i] + std::string(width[i] - width_of(lines[k][i]), ' ') + " ";
     }
     text += "|\n";
     if (k > 0) continue;

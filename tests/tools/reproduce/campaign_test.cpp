@@ -190,7 +190,8 @@ TEST_CASE("claims: runs what is missing over variations, shares the base with re
   CHECK(read_file(out / "summary.json") == before);
 }
 
-TEST_CASE("reproduce: runs with one thing changed are made when asked for, and counted ever after") {
+TEST_CASE(
+    "reproduce: runs with one thing changed are made when asked for, and counted ever after") {
   const ScratchFolder scratch;
   const fs::path out = scratch.path() / "campaign";
   const Outcome asked =

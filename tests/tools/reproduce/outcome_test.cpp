@@ -69,14 +69,16 @@ TEST_CASE("an outcome is read from a run's folder: time counts from first contac
   CHECK(o.trace.fz_N == std::vector<double>(7, 16));
   CHECK(o.fx_peak_s == Approx(0.035));
   CHECK(o.refused.size() == 1);
-  write_file(scratch.path() / "result.json", "{\"max_depth_m\": 0.0125, \"max_sole_depth_m\": 0.003}");
+  write_file(scratch.path() / "result.json",
+             "{\"max_depth_m\": 0.0125, \"max_sole_depth_m\": 0.003}");
   CHECK(read_outcome(false, scratch.path()).sinkage_mm == Approx(12.5));
   CHECK(read_outcome(false, scratch.path()).sole_sinkage_mm == Approx(3));
   CHECK(std::isnan(read_outcome(false, scratch.path()).support_area_ratio));  // of a run without
-  write_file(scratch.path() / "result.json",
-             "{\"max_depth_m\": 0.0125, \"max_sole_depth_m\": 0.003, \"fields\": {\"greatest_depth\": {"
-             "\"high_pressure_share_ratio\": 0.3, \"support_area_over_plan_ratio\": 0.6,"
-             " \"gap_over_foot_stress_ratio\": null}}}");
+  write_file(
+      scratch.path() / "result.json",
+      "{\"max_depth_m\": 0.0125, \"max_sole_depth_m\": 0.003, \"fields\": {\"greatest_depth\": {"
+      "\"high_pressure_share_ratio\": 0.3, \"support_area_over_plan_ratio\": 0.6,"
+      " \"gap_over_foot_stress_ratio\": null}}}");
   const Outcome standing = read_outcome(false, scratch.path());
   CHECK(standing.high_pressure_share == 0.3);
   CHECK(standing.support_area_ratio == 0.6);

@@ -50,8 +50,7 @@ TEST_CASE("reasons: the change that brings a target inside is named, of its beds
   base[kSpined][3].sinkage_mm = 80;           // a bed that the change was not run on
   const Altered shorter = altered("geometry", "short-spines", "shorter", base,
                                   only(kSpined, 9, {1, 2}), but(base, kSpined));
-  const Altered softer = altered("law", "other-law", "another law", base,
-                                 depths(15, 10, {1}), {});
+  const Altered softer = altered("law", "other-law", "another law", base, depths(15, 10, {1}), {});
   const Comparison row = judged(base, {softer, shorter});
   REQUIRE(row.tried.size() == 2);
   CHECK(row.found() == "inside by geometry (short-spines): 0.9 in place of 2 on 2 beds");

@@ -31,6 +31,15 @@ TEST_CASE("a table prints as Markdown, with units and without numbers that are n
         "| half strip | -13.2     | 5   | -      |\n");
 }
 
+TEST_CASE("a unit of two bytes and one column stands as wide as it looks") {
+  Table angles({{"repose_deg", 1}});
+  angles.row({32.25});
+  CHECK(angles.markdown() ==
+        "| repose, ° |\n"
+        "| --------- |\n"
+        "| 32.2      |\n");
+}
+
 TEST_CASE("the same table as CSV keeps every digit") {
   const ScratchFolder scratch;
   example().write_csv(scratch.path() / "t.csv");
