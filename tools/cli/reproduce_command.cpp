@@ -80,6 +80,7 @@ void add_reproduce_command(CLI::App& app, Invocation& invocation) {
       "  hoof reproduce all --plan\n"
       "  hoof reproduce load --beds 5 --jobs 2\n"
       "  hoof reproduce table3 table5\n"
+      "  hoof reproduce load opening --vary all --vary-beds 1   why a number is not the paper's\n"
       "  hoof reproduce all --scale bench                     a night of two cores\n"
       "  hoof reproduce all --full --scale paper --engine slurm --at-once 64 --time 24:00:00 "
       "--wait\n"

@@ -8,6 +8,7 @@
 
 #include "tools/reproduce/claims_report.h"
 #include "tools/reproduce/cost.h"
+#include "tools/reproduce/reasons.h"
 #include "tools/run/errors.h"
 
 namespace hoof::tools {
@@ -111,6 +112,7 @@ class Inquiry {
         }
       }
     }
+    const Outcomes by_sole = read_by_sole(base);
     for (JudgedClaim& j : judged) {
       std::vector<Finding> findings;
       for (std::size_t i = 1; i < j.under.size(); ++i) findings.push_back(j.under[i].finding);
@@ -118,8 +120,19 @@ class Inquiry {
       // Supported is said of all that the paper leaves open, not of a part.
       const bool part = used_.size() < variations_.size();
       if (part && j.verdict == Verdict::kSupported) j.verdict = Verdict::kOpen;
+      ClaimUnder reading = weigh_all(*j.claim, by_sole, nullptr);
+      reading.variation = kSoleReading, reading.kind = "reading";
+      if (differs(reading, j.under.front())) j.under.push_back(std::move(reading));
     }
     return judged;
+  }
+
+  static bool differs(const ClaimUnder& a, const ClaimUnder& b) {
+    for (std::size_t i = 0; i < a.evidence.size(); ++i) {
+      const auto &of_a = a.evidence[i], &of_b = b.evidence[i];
+      if (of_a && of_b && of_a->sample.mean != of_b->sample.mean) return true;
+    }
+    return false;
   }
 
   static bool changes_any(const Claim& claim, const Variation& variation) {

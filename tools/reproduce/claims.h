@@ -29,7 +29,7 @@ struct ClaimsOptions {
 /// What one variation, or the base, says of a claim.
 struct ClaimUnder {
   std::string variation;  // "base" or its name
-  std::string kind;
+  std::string kind;       // "reading": the base's runs read otherwise, no part of the verdict
   Finding finding = Finding::kNotRun;
   std::vector<std::optional<Evidence>> evidence;  // by contrast
   std::vector<std::vector<std::string>> runs;     // by contrast: their ids
@@ -38,7 +38,7 @@ struct ClaimUnder {
 struct JudgedClaim {
   const Claim* claim = nullptr;
   Verdict verdict = Verdict::kOpen;
-  std::vector<ClaimUnder> under;  // the base first
+  std::vector<ClaimUnder> under;  // the base first, a reading last
 };
 
 /// Makes the runs that are missing in the folder of the campaign, which base runs are shared with,

@@ -20,7 +20,8 @@ constexpr const char* kRule =
     "A claim holds where the whole interval of each of its contrasts lies on the claimed side of "
     "the bound. Supported: under the base and under every variation. Fragile: under the base, not "
     "under some variation. Unsupported: not under the base. Open: not all was run, and nothing "
-    "fails.";
+    "fails. sole-depth: the base's runs with depth as how far the sole, not the spines, is in the "
+    "sand (the paper does not say which it means); no part of the verdict.";
 
 std::string digits(double value) {
   if (!std::isfinite(value)) return "-";
@@ -59,7 +60,8 @@ std::size_t weakest(const Claim& claim, const ClaimUnder& under) {
 std::string counted(const JudgedClaim& j, Finding finding) {
   std::string names;
   for (std::size_t i = 1; i < j.under.size(); ++i) {
-    if (j.under[i].finding == finding) names += (names.empty() ? "" : " ") + j.under[i].variation;
+    const bool counts = j.under[i].kind != "reading";
+    if (counts && j.under[i].finding == finding) names += (names.empty() ? "" : " ") + j.under[i].variation;
   }
   return names.empty() ? "-" : names;
 }
@@ -214,7 +216,7 @@ std::string claims_text(const std::vector<JudgedClaim>& claims) {
                {"holds_too_name"},
                {"fails_name"},
                {"not_run_name"}});
-  std::string why;
+  std::string why, readings;
   for (const JudgedClaim& j : claims) {
     const ClaimUnder& base = j.under.front();
     const std::size_t at = weakest(*j.claim, base);
@@ -224,9 +226,15 @@ std::string claims_text(const std::vector<JudgedClaim>& claims) {
                counted(j, Finding::kHolds), counted(j, Finding::kFails),
                counted(j, Finding::kNotRun)});
     why += rejected(j);
+    const ClaimUnder& last = j.under.back();
+    if (last.kind != "reading" || last.finding == base.finding) continue;
+    const std::size_t least = weakest(*j.claim, last);
+    readings += "  " + j.claim->name + " " + to_string(last.finding) + ": " +
+                j.claim->contrasts[least].name + " is " + interval(*last.evidence[least]) + "\n";
   }
   std::string text = table.markdown() + kRule + "\n";
   if (!why.empty()) text += "What does not hold:\n" + why;
+  if (!readings.empty()) text += "Otherwise by the depth of the sole:\n" + readings;
   return text;
 }
 

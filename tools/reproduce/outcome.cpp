@@ -80,6 +80,14 @@ void find_timing(Outcome& o) {
   }
 }
 
+Outcomes read_by_sole(const Outcomes& outcomes) {
+  Outcomes read = outcomes;
+  for (auto& [condition, runs] : read) {
+    for (auto& [bed, run] : runs) run.sinkage_mm = std::max(0.0, run.sole_sinkage_mm);
+  }
+  return read;
+}
+
 Outcome read_outcome(bool traction, const fs::path& folder) {
   const fs::path file = folder / "result.json";
   Outcome o;

@@ -40,6 +40,10 @@ struct Outcome {
 /// By condition, then by bed.
 using Outcomes = std::map<std::string, std::map<int, Outcome>>;
 
+/// The same read otherwise: depth is how far the sole is in the sand, 0 where it hangs above, not
+/// how far the spines went since they touched. The paper does not say which it means.
+Outcomes read_by_sole(const Outcomes& outcomes);
+
 /// @param traction its kind  @param folder of the run, with result.json and samples.csv
 /// @throws UserError where they do not read
 Outcome read_outcome(bool traction, const std::filesystem::path& folder);

@@ -40,18 +40,11 @@ Altered altered(std::string kind, std::string name, std::string what, const Outc
   return a;
 }
 
-Altered read_by_sole(const Outcomes& base) {
-  Outcomes by_sole;
-  for (const auto& [condition, runs] : base) {
-    for (const auto& [bed, run] : runs) {
-      Outcome& read = by_sole[condition].emplace(bed, run).first->second;
-      read.sinkage_mm = run.sole_sinkage_mm;
-    }
-  }
-  return altered("reading", "sole-depth",
-                 "depth counted from where the sole reaches the height of first contact, not from "
-                 "where the spines touch (the paper does not say from where)",
-                 base, by_sole, {});
+Altered sole_reading(const Outcomes& base) {
+  return altered("reading", kSoleReading,
+                 "depth is how far the sole is in the sand, not how far the spines went since they "
+                 "touched it (the paper does not say which it means)",
+                 base, read_by_sole(base), {});
 }
 
 void try_changes(std::vector<Comparison>& rows, const std::vector<Altered>& changes) {

@@ -23,8 +23,9 @@ struct Altered {
 Altered altered(std::string kind, std::string name, std::string what, const Outcomes& base,
                 const Outcomes& changed, const Outcomes& same);
 
-/// Depth counted from where the sole, not from where the spines first touch: no run is needed.
-Altered read_by_sole(const Outcomes& base);
+inline constexpr const char* kSoleReading = "sole-depth";
+/// Depth as of read_by_sole(): no run is needed.
+Altered sole_reading(const Outcomes& base);
 
 /// Fills `tried` of each row that has runs.
 void try_changes(std::vector<Comparison>& rows, const std::vector<Altered>& changes);

@@ -262,7 +262,7 @@ std::vector<Cell> under(const std::vector<Variation>& variations,
 
 std::vector<Altered> changes(const Campaign& campaign, const std::vector<Variation>& variations) {
   const Outcomes base = campaign.outcomes();
-  std::vector<Altered> all = {read_by_sole(base)};
+  std::vector<Altered> all = {sole_reading(base)};
   for (const Variation& v : variations) {
     all.push_back(
         altered(v.kind, v.name, v.what, base, campaign.outcomes(v.name), unchanged(base, v)));

@@ -184,10 +184,39 @@ TEST_CASE("claims: runs what is missing over variations, shares the base with re
     }
   }
   for (const char* name : {"claims.csv", "claims.html"}) CHECK(fs::exists(out / name));
-  // The campaign of the base does not see the variation's runs.
-  const std::string before = read_file(out / "summary.json");
+  // The campaign of the base has the variation's runs as what was tried, and nothing else of them.
+  auto before = nlohmann::json::parse(read_file(out / "summary.json"));
   REQUIRE(run_program(campaign(out, {}, "2")).status == 0);
-  CHECK(read_file(out / "summary.json") == before);
+  auto after = nlohmann::json::parse(read_file(out / "summary.json"));
+  int tried = 0;
+  for (auto& target : after["targets"]) {
+    for (const auto& change : target.value("tried", nlohmann::json::array())) {
+      CHECK(change["name"] == "long-spines");
+      ++tried;
+    }
+    target.erase("tried"), target.erase("found");
+  }
+  CHECK(tried > 3);
+  CHECK(after == before);
+}
+
+TEST_CASE("claims: depth by the sole is shown beside the base, of the same runs") {
+  const ScratchFolder scratch;
+  const Outcome judged =
+      run_program({"claims", "spines-stiffen", "--terrain", "rft", "--beds", "2", "--vary",
+                   "valley1", "--quiet", "--out", scratch.path().string()});
+  REQUIRE(judged.status == 0);
+  const auto j = nlohmann::json::parse(read_file(scratch.path() / "claims.json"));
+  const auto& under = j["claims"][0]["under"];
+  REQUIRE(under.size() == 3);
+  CHECK(under[2]["variation"] == "sole-depth");
+  CHECK(under[2]["kind"] == "reading");
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto &base = under[0]["contrasts"][i], &reading = under[2]["contrasts"][i];
+    CHECK(reading["runs"] == base["runs"]);
+    // Less than the way since the spines touched, by 9 mm.
+    CHECK(reading["mean"].get<double>() < base["mean"].get<double>());
+  }
 }
 
 TEST_CASE(

@@ -9,6 +9,7 @@
 #include "tools/calibrate/paper_tables.h"
 #include "tools/experiment/run_settings.h"
 #include "tools/reproduce/cell.h"
+#include "tools/reproduce/claims_report.h"
 #include "tools/reproduce/paper.h"
 #include "tools/reproduce/run_store.h"
 #include "tools/reproduce/variation.h"
@@ -218,6 +219,30 @@ TEST_CASE("variations: of geometry, grain size and valley, and what claims are n
       CHECK(changed.steps_per_ms % 40 == 0);
     }
   }
+}
+
+TEST_CASE("a reading by which a claim is otherwise is told below the table, and counts nowhere") {
+  const Claim one{"one",
+                  "a is less than b",
+                  {{"a over b", {"a", "b"}, [](const std::vector<Outcome>&) { return 0.0; }}}};
+  const auto under = [](const std::string& name, const std::string& kind, double mean,
+                        Finding finding) {
+    ClaimUnder u;
+    u.variation = name, u.kind = kind, u.finding = finding;
+    u.evidence = {Evidence{sample_of({mean, mean}), {1, 2}}};
+    u.runs = {{}};
+    return u;
+  };
+  JudgedClaim judged{&one, Verdict::kUnsupported, {}};
+  judged.under = {under("base", "", 2, Finding::kFails),
+                  under("long-spines", "geometry", 3, Finding::kFails),
+                  under("sole-depth", "reading", 0.5, Finding::kHolds)};
+  CHECK_THAT(claims_text({judged}), Catch::Contains("| -         | long-spines | -       |") &&
+                                        Catch::Contains("Otherwise by the depth of the sole:\n"
+                                                        "  one holds: a over b is 0.5 (0.5 to "
+                                                        "0.5)\n"));
+  judged.under.back() = under("sole-depth", "reading", 1.5, Finding::kFails);
+  CHECK_THAT(claims_text({judged}), !Catch::Contains("Otherwise by"));
 }
 
 TEST_CASE("the valley's points have the paper's angle of repose, and are far from each other") {

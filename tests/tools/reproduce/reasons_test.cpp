@@ -104,9 +104,12 @@ TEST_CASE("reasons: depth by the sole needs no run") {
   for (const int bed : {1, 2}) {
     base[kSpined][bed].sole_sinkage_mm = 8.7, base[kPlain][bed].sole_sinkage_mm = 10;
   }
-  const Comparison row = judged(base, {read_by_sole(base)});
+  const Comparison row = judged(base, {sole_reading(base)});
   CHECK(row.found() == "inside by reading (sole-depth): 0.87 in place of 2 on 2 beds");
-  CHECK(judged(base, {read_by_sole(base)}, kPlain).tried.empty());  // no spines: one depth
+  CHECK(judged(base, {sole_reading(base)}, kPlain).tried.empty());  // no spines: one depth
+  base[kSpined][1].sole_sinkage_mm = -0.9;                          // hangs above the sand
+  CHECK(read_by_sole(base)[kSpined][1].sinkage_mm == 0);
+  CHECK(read_by_sole(base)[kSpined][2].sinkage_mm == 8.7);
 }
 
 TEST_CASE("reasons: of a variation the base counts where it changes nothing") {
