@@ -66,7 +66,7 @@ OpenedBed open_bed(const BedOptions& options) {
                               options.bed + " makes it"
                         : options.bed +
                               ": no such file, and no bed of this name: presets are demo, "
-                              "bench, paper");
+                              "medium, bench, paper");
   }
   try {
     sim::KeptBed kept = sim::read_bed_file(file);

@@ -13,7 +13,7 @@ namespace hoof::tools {
 
 /// The flags that choose a bed's settings.
 struct BedOptions {
-  std::string bed = "demo";  ///< demo, bench, paper, or a TOML file
+  std::string bed = "demo";  ///< demo, medium, bench, paper, or a TOML file
   std::optional<std::int64_t> seed;
   std::optional<int> threads;
   bool periodic = false;

@@ -3,9 +3,10 @@
 namespace hoof::tools {
 
 void add_ground_options(CLI::App& command, Ground& ground) {
-  command.add_option("--scale", ground.scale, "Bed: demo (coarse grains), bench, paper [demo]")
+  command
+      .add_option("--scale", ground.scale, "Bed: demo (coarse grains), medium, bench, paper [demo]")
       ->type_name("BED")
-      ->check(CLI::IsMember({"demo", "bench", "paper"}).description(""));
+      ->check(CLI::IsMember({"demo", "medium", "bench", "paper"}).description(""));
   command
       .add_option("--terrain", ground.terrain,
                   "dem, or rft or rigid: quick looks that say nothing about sand [dem]")

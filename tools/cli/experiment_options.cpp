@@ -17,7 +17,7 @@ constexpr double kToeMax_deg = 40.0;  // the paper's widest opening and the foot
 
 const std::string kStlEnding = ".stl";
 const std::vector<std::string> kFeet = {"bionic", "bionic-plain", "traditional"};
-const std::vector<std::string> kBeds = {"demo", "bench", "paper"};
+const std::vector<std::string> kBeds = {"demo", "medium", "bench", "paper"};
 
 const std::string kResume = "--resume";
 const std::string kCheckpointEvery = "--checkpoint-every";
@@ -282,7 +282,7 @@ void add_experiment_options(CLI::App& command, ExperimentOptions& options, Exper
   command.add_option("--toe", options.toe, "Opening of each toe, 0..40 degrees")
       ->type_name("DEG")
       ->check(CLI::Validator(check_toe, ""));
-  command.add_option("--bed", options.bed, "Preset demo, bench or paper, or a file")
+  command.add_option("--bed", options.bed, "Preset demo, medium, bench or paper, or a file")
       ->type_name("PRESET|FILE")
       ->check(name_or_file(kBeds, ""));
   command

@@ -25,7 +25,7 @@ struct ExperimentOptions {
   std::string speed;                ///< m/s, downward at first contact (sinkage)
   std::string frequency;            ///< Hz, of the stance ellipse (traction)
   std::string toe;                  ///< degrees per side, 0..40
-  std::string bed;                  ///< preset demo, bench, paper, or a file
+  std::string bed;                  ///< preset demo, medium, bench, paper, or a file
   std::string terrain;              ///< dem, rft or rigid
   std::string soil;                 ///< of rft: preset or file
   std::string fields;               ///< none, report or vtk

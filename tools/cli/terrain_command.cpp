@@ -16,7 +16,7 @@ void add_fit(CLI::App& parent, Invocation& invocation) {
           ->check(CLI::ExistingFile);
   const auto of_sand = [&](CLI::Option* option) { return option->excludes(from); };
   of_sand(
-      command->add_option("--bed", options->bed.bed, "demo, bench, paper, or a TOML file [demo]"))
+      command->add_option("--bed", options->bed.bed, "demo, medium, bench, paper, or a TOML file [demo]"))
       ->type_name("NAME|FILE.toml");
   of_sand(command->add_option("--seed", options->bed.seed, "Of the bed"))
       ->type_name("S")

@@ -26,10 +26,7 @@ Campaign::Campaign(const std::filesystem::path& folder, std::vector<Cell> cells,
     throw UserError("--out " + folder.string() + ": another process is working on this campaign");
   }
   const auto plan = [&](const Cell& cell) {
-    std::vector<std::string> all = cell.overrides();
-    const std::vector<std::string> shared = settings.of(cell.kind());
-    all.insert(all.end(), shared.begin(), shared.end());
-    return planned_run(cell.id(), cell.kind(), all);
+    return planned_run(cell.id(), cell.kind(), settings.of(cell));
   };
   for (const Cell& cell : cells_) planned_[cell.id()] = plan(cell);
   for (const Cell& cell : others) {

@@ -108,6 +108,13 @@ std::vector<std::string> CampaignSettings::of(const std::string& kind) const {
   return all;
 }
 
+std::vector<std::string> CampaignSettings::of(const Cell& cell) const {
+  std::vector<std::string> all = of(cell.kind());
+  const std::vector<std::string> own = cell.overrides();
+  all.insert(all.end(), own.begin(), own.end());
+  return all;
+}
+
 std::string Cell::condition() const {
   std::string name = kind() + "-" + foot;
   if (foot != kTraditional) name += "-toe" + std::to_string(toe_deg);

@@ -7,15 +7,6 @@
 
 namespace hoof::tools {
 
-/// What all runs of a campaign share, "dotted.key=value". Of two of a key the last counts.
-struct CampaignSettings {
-  std::vector<std::string> of_all;
-  std::vector<std::string> of_sinkage;
-  std::vector<std::string> asked;  // by the user, of all
-
-  std::vector<std::string> of(const std::string& kind) const;
-};
-
 /// A sinkage or a traction run on one bed.
 struct Cell {
   bool traction = false;
@@ -37,6 +28,17 @@ struct Cell {
   }
   /// "dotted.key=value", what the run is beside the defaults of its experiment.
   std::vector<std::string> overrides() const;
+};
+
+/// What all runs of a campaign share, "dotted.key=value". Of two of a key the last counts.
+struct CampaignSettings {
+  std::vector<std::string> of_all;
+  std::vector<std::string> of_sinkage;
+  std::vector<std::string> asked;  // by the user, of all
+
+  std::vector<std::string> of(const std::string& kind) const;
+  /// With what the cell is: its own counts last, as its name says it.
+  std::vector<std::string> of(const Cell& cell) const;
 };
 
 /// The cell of such a condition(). @throws std::invalid_argument where it is none

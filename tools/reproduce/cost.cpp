@@ -19,11 +19,9 @@ struct Speed {
   double steps_per_ms;           // of the preset; 0: no grains
 };
 constexpr double kTraction_Hz = 0.45;
-constexpr Speed kSpeeds[] = {{"rigid", "", 0.3, 0.6, 0},
-                             {"rft", "", 1, 3, 0},
-                             {"dem", "demo", 13, 60, 80},
-                             {"dem", "bench", 900, 4300, 360},
-                             {"dem", "paper", 4000, 19000, 360}};
+constexpr Speed kSpeeds[] = {{"rigid", "", 0.3, 0.6, 0},       {"rft", "", 1, 3, 0},
+                             {"dem", "demo", 13, 60, 80},      {"dem", "medium", 90, 660, 200},
+                             {"dem", "bench", 560, 4100, 360}, {"dem", "paper", 4000, 19000, 360}};
 constexpr double kSinkage_bytes = 0.75e6, kTraction_bytes = 3.2e6;
 
 double size_of(const fs::path& folder) {

@@ -5,10 +5,11 @@ namespace hoof::tools {
 CampaignSettings Ground::settings() const {
   CampaignSettings settings;
   settings.of_all = {"use.bed=" + scale, "experiment.terrain=" + terrain};
-  if (scale != "bench") return settings;
-  // 5.6 us, 27 % of the Rayleigh time, for the preset's 2.8: the step of the studies in
-  // RESOLUTION.md, and half the cost.
-  settings.of_all.push_back("bed.steps_per_ms=180");
+  // 5.6 and 8.3 us, 27 % of the Rayleigh time, for the presets' 13 and 16: the step of the studies
+  // in RESOLUTION.md.
+  if (scale == "bench") settings.of_all.push_back("bed.steps_per_ms=180");
+  if (scale == "medium") settings.of_all.push_back("bed.steps_per_ms=120");
+  if (scale != "bench" && scale != "medium") return settings;
   // Sand that nothing touches yet costs as much as sand under a foot: it wakes 1 mm below the foot
   // for the preset's 5, and a foot rests once it trembles at less than 20 mm/s for its 5. It rings
   // at 60 Hz and more then, less than 0.05 mm to either side. Half the cost of a sinkage again.

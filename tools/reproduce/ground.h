@@ -11,7 +11,7 @@
 namespace hoof::tools {
 
 struct Ground {
-  std::string scale = "demo";   // preset of the bed: demo, bench, paper
+  std::string scale = "demo";   // preset of the bed: demo, medium, bench, paper
   std::string terrain = "dem";  // or "rft", "rigid": quick looks that are no sand
 
   CampaignSettings settings() const;

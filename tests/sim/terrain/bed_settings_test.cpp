@@ -185,7 +185,7 @@ TEST_CASE("walls stand around the box, floor first, a lid above, with room in th
 }
 
 TEST_CASE("the shipped beds are sound") {
-  const std::string name = GENERATE("demo", "bench", "paper");
+  const std::string name = GENERATE("demo", "medium", "bench", "paper");
   const BedSettings bed = shipped_bed(name);
   CHECK(bed.name == name);
   // Whole numbers of steps in an exchange of 50 us and, where that is halved, in 25 us.
@@ -211,4 +211,5 @@ TEST_CASE("the shipped beds have the numbers of grains that they are described w
   CHECK(levelled("demo") == Approx(20000).epsilon(0.02));
   CHECK(levelled("bench") > 100000);
   CHECK(levelled("bench") < 300000);
+  CHECK(levelled("medium") == Approx(levelled("bench") / 3.375).epsilon(1e-3));  // 1.5 cubed
 }

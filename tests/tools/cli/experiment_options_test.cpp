@@ -77,7 +77,7 @@ TEST_CASE("impossible values are refused, naming flag and bound") {
       {{"--speed", "0.1mm"}, "--speed: '0.1mm' is not a number (in m/s)"},
       {{"--foot", "bear"}, "--foot: 'bear' is none of bionic, bionic-plain, traditional"},
       {{"--foot", "missing.stl"}, "--foot: 'missing.stl' is none of"},
-      {{"--bed", "bigger"}, "--bed: 'bigger' is none of demo, bench, paper"},
+      {{"--bed", "bigger"}, "--bed: 'bigger' is none of demo, medium, bench, paper"},
       {{"--terrain", "mud"}, "--terrain: 'mud' is none of dem, rft, rigid"},
       {{"--threads", "0"}, "--threads: Value 0 not in range"},
       {{"--seed", "-1"}, "--seed"},

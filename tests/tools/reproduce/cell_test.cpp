@@ -55,7 +55,8 @@ TEST_CASE("ground: bench is a night of two cores, and its step is said to every 
   const auto step_s = [](const Ground& ground) {
     return read_run_settings("sinkage", ground.settings().of("sinkage")).bed.step_s();
   };
-  CHECK(step_s(bench) == Approx(5.6e-6).epsilon(0.01));  // 1 ms / 180
+  CHECK(step_s(bench) == Approx(5.6e-6).epsilon(0.01));                    // 1 ms / 180
+  CHECK(step_s(Ground{"medium", "dem"}) == Approx(8.3e-6).epsilon(0.01));  // 1 ms / 120
   CHECK(step_s(paper) == Approx(2.8e-6).epsilon(0.01));
 }
 
@@ -63,6 +64,13 @@ TEST_CASE("ground: a traction knows no rest, and what is asked for counts last")
   CampaignSettings settings = Ground{"bench", "dem"}.settings();
   CHECK_NOTHROW(read_run_settings("traction", settings.of("traction")));
   CHECK(read_run_settings("sinkage", settings.of("sinkage")).sinkage.rest_speed_m_s == 0.020);
+  // What the name of a run says is so, whatever the ground and the user say of all.
+  Cell finer = cell_of("sinkage-bionic-toe0-10kg-0.1m_s");
+  finer.variation = "fine-grains", finer.changes = {"bed.steps_per_ms=240"};
+  settings.asked = {"experiment.load_kg=60"};
+  const RunSettings fine = read_run_settings("sinkage", settings.of(finer));
+  CHECK(fine.bed.steps_per_ms == 240);
+  CHECK(fine.sinkage.load_N == Approx(98.1));
   settings.asked = {"experiment.rest_speed_mm_s=7"};
   CHECK(read_run_settings("sinkage", settings.of("sinkage")).sinkage.rest_speed_m_s == 0.007);
 }

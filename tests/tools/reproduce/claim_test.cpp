@@ -205,7 +205,7 @@ TEST_CASE("variations: of geometry, grain size and valley, and what claims are n
   }());
   CHECK(varied(cell_of("traction-traditional-1.12Hz"), variations[0]).changes.empty());
   CHECK_FALSE(varied(cell_of("traction-traditional-1.12Hz"), variations[2]).changes.empty());
-  for (const char* bed : {"demo", "bench", "paper"}) {
+  for (const char* bed : {"demo", "medium", "bench", "paper"}) {
     const std::vector<std::string> settings = {std::string("use.bed=") + bed};
     const auto plain = read_run_settings("sinkage", settings).bed;
     for (const Variation& v : all_variations(settings)) {
