@@ -346,8 +346,10 @@ std::string Comparison::found() const {
   const auto nearest =
       std::min_element(tried.begin(), tried.end(),
                        [&](const Tried& a, const Tried& b) { return beyond(a) < beyond(b); });
-  return "by none of " + std::to_string(tried.size()) + " changes tried; nearest by " +
-         told(*nearest);
+  const std::string of = tried.size() == 1 ? "not by the one change that was tried, "
+                                           : "by none of " + std::to_string(tried.size()) +
+                                                 " changes tried; nearest by ";
+  return of + told(*nearest);
 }
 
 std::string to_string(Judgement judgement) {

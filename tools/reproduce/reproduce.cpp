@@ -49,27 +49,30 @@ std::string joined(const std::vector<std::string>& sentences) {
   return text;
 }
 
-Table table_of(const std::vector<Comparison>& rows) {
-  Table table({{"target_name"},
-               {"unit_name"},
-               {"paper_name"},
-               {"accepted_from_name"},
-               {"accepted_to_name"},
-               {"ours_name"},
-               {"deviation_name"},
-               {"beds_count"},
-               {"result_name"},
-               {"standing_name"},
-               {"note_name"},
-               {"found_name"},
-               {"bed_cannot_tell_name"}});
+/// @param found whether with a column for it; a terminal has it as lines of its own
+Table table_of(const std::vector<Comparison>& rows, bool found) {
+  std::vector<Table::Column> columns = {
+      {"target_name"},      {"unit_name"},     {"paper_name"},     {"accepted_from_name"},
+      {"accepted_to_name"}, {"ours_name"},     {"deviation_name"}, {"beds_count"},
+      {"result_name"},      {"standing_name"}, {"note_name"},      {"bed_cannot_tell_name"}};
+  if (found) columns.push_back({"found_name"});
+  Table table(columns);
   for (const Comparison& row : rows) {
     const bool band = row.low != 0 || row.high != 0;
-    table.row({row.name, row.unit, figure(row.paper), band ? figure(row.low) : "",
-               band ? figure(row.high) : "", row.ours ? figure(row.ours->mean) : "",
-               row.ours ? figure(row.ours->deviation) : "",
-               std::int64_t(row.ours ? row.ours->n : 0), to_string(row.judgement()),
-               to_string(row.standing), row.note, row.found(), joined(row.cannot_tell)});
+    std::vector<Table::Cell> cells = {row.name,
+                                      row.unit,
+                                      figure(row.paper),
+                                      band ? figure(row.low) : "",
+                                      band ? figure(row.high) : "",
+                                      row.ours ? figure(row.ours->mean) : "",
+                                      row.ours ? figure(row.ours->deviation) : "",
+                                      std::int64_t(row.ours ? row.ours->n : 0),
+                                      to_string(row.judgement()),
+                                      to_string(row.standing),
+                                      row.note,
+                                      joined(row.cannot_tell)};
+    if (found) cells.push_back(row.found());
+    table.row(cells);
   }
   return table;
 }
@@ -119,7 +122,7 @@ void write_summary(const Campaign& campaign, const ReproduceOptions& options,
     for (std::string& sentence : row.cannot_tell) without_commas(sentence);
     for (Tried& t : row.tried) without_commas(t.what);
   }
-  table_of(plain).write_csv(folder / "summary.csv");
+  table_of(plain, true).write_csv(folder / "summary.csv");
   changes_table(plain).write_csv(folder / "changes.csv");
   nlohmann::ordered_json j;
   j["scale"] = options.ground.scale, j["terrain"] = options.ground.terrain;
@@ -299,10 +302,17 @@ void run_campaign(const ReproduceOptions& options) {
   const std::size_t all = rows.size();
   std::erase_if(rows, [](const Comparison& row) { return !row.ours; });
   const std::vector<std::string> sentences = number_sentences(rows);
-  std::cout << table_of(rows).markdown();
+  std::cout << table_of(rows, false).markdown();
   for (std::size_t i = 0; i < sentences.size(); ++i) {
     std::cout << (i == 0 ? "what a bed cannot tell, with the numbers in summary.csv\n" : "") << "  "
               << i + 1 << " " << sentences[i] << "\n";
+  }
+  bool first = true;
+  for (const Comparison& row : rows) {
+    if (row.found().empty()) continue;
+    std::cout << (first ? "one thing changed; all of it in changes.csv and report.html\n" : "")
+              << "  " << row.name << ": " << row.found() << "\n";
+    first = false;
   }
   if (rows.size() < all) std::cout << all - rows.size() << " more targets were not run\n";
   for (const auto& [foot, hash] : campaign.geometry_hashes()) {

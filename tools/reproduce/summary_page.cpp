@@ -85,21 +85,28 @@ std::string table(const std::vector<Comparison>& rows) {
     html += element("th", head);
   }
   html += "</tr>\n";
+  std::string not_run;
   for (const Comparison& row : rows) {
+    if (!row.ours) {
+      not_run += element("li", row.name) + "\n";
+      continue;
+    }
     const bool band = row.low != 0 || row.high != 0;
     const std::string unit = row.unit == "1" ? "" : " " + row.unit;
     html += "<tr>" + element("td", row.name) + element("td", digits(row.paper) + unit) +
             element("td", band ? digits(row.low) + " to " + digits(row.high) : "") +
-            element("td", row.ours ? digits(row.ours->mean) + unit : "") +
-            element("td", row.ours ? digits(row.ours->deviation) : "") +
-            element("td", row.ours ? std::to_string(row.ours->n) : "") +
-            element("td", to_string(row.judgement())) + element("td", to_string(row.standing)) +
-            element("td", row.note) + element("td", row.found()) +
+            element("td", digits(row.ours->mean) + unit) +
+            element("td", digits(row.ours->deviation)) +
+            element("td", std::to_string(row.ours->n)) + element("td", to_string(row.judgement())) +
+            element("td", to_string(row.standing)) + element("td", row.note) +
+            element("td", row.found()) +
             element("td", in_short(row.cannot_tell),
                     " title=\"" + html_escape(in_full(row.cannot_tell)) + "\"") +
             "</tr>\n";
   }
-  return html + "</table>\n";
+  html += "</table>\n";
+  if (not_run.empty()) return html;
+  return html + "<details>\n<summary>Not run</summary>\n<ul>\n" + not_run + "</ul>\n</details>\n";
 }
 
 }  // namespace
