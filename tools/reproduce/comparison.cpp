@@ -346,10 +346,9 @@ std::string Comparison::found() const {
   const auto nearest =
       std::min_element(tried.begin(), tried.end(),
                        [&](const Tried& a, const Tried& b) { return beyond(a) < beyond(b); });
-  const std::string of = tried.size() == 1 ? "not by the one change that was tried, "
-                                           : "by none of " + std::to_string(tried.size()) +
-                                                 " changes tried; nearest by ";
-  return of + told(*nearest);
+  if (tried.size() == 1) return "nothing else was tried than " + told(*nearest);
+  return "by none of " + std::to_string(tried.size()) + " changes tried; nearest by " +
+         told(*nearest);
 }
 
 std::string to_string(Judgement judgement) {
