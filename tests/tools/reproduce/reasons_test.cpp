@@ -38,6 +38,7 @@ Comparison judged(const Outcomes& base, const std::vector<Altered>& changes,
   std::vector<Comparison> rows = compare_with_paper(base);
   try_changes(rows, changes);
   for (const Comparison& row : rows) {
+    CHECK(row.found().find(',') == std::string::npos);  // a CSV takes none within a text
     if (row.name == name) return row;
   }
   throw std::runtime_error("no target " + name);
