@@ -336,13 +336,15 @@ std::string Comparison::found() const {
            rounded(t.without.mean) + " on " + std::to_string(t.with.n) +
            (t.with.n == 1 ? " bed" : " beds");
   };
-  std::string text;
-  for (const Tried& t : tried) {
-    // A scatter of few beds that was inside before is no reason.
-    const bool was_inside = t.without.mean >= low && t.without.mean <= high;
-    if (t.inside && !was_inside) text += (text.empty() ? "inside by " : "; ") + told(t);
+  for (const bool both : {false, true}) {
+    std::string text;
+    for (const Tried& t : tried) {
+      // A scatter of few beds that was inside before is no reason.
+      const bool was_inside = t.without.mean >= low && t.without.mean <= high;
+      if (t.both == both && t.inside && !was_inside) text += (text.empty() ? "" : "; ") + told(t);
+    }
+    if (!text.empty()) return "inside by " + text;
   }
-  if (!text.empty()) return text;
   const auto nearest =
       std::min_element(tried.begin(), tried.end(),
                        [&](const Tried& a, const Tried& b) { return beyond(a) < beyond(b); });

@@ -23,6 +23,7 @@ struct Tried {
   std::string kind, name, what;  // "geometry", "long-spines", in words
   Sample with, without;          // of the same beds
   bool inside = false;           // with the change
+  bool both = false;             // read by the sole beside
 };
 
 struct Comparison {
@@ -39,8 +40,9 @@ struct Comparison {
   std::vector<Tried> tried = {};
 
   Judgement judgement() const;
-  /// Of one that is outside, as far as it was found: each change that brings it inside, or what
-  /// came nearest. Empty: inside, or nothing was tried.
+  /// Of one that is outside, as far as it was found: each change that brings it inside, where there
+  /// is none each with which the reading by the sole does, or what came nearest. Empty: inside, or
+  /// nothing was tried.
   std::string found() const;
 };
 

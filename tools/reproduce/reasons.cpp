@@ -1,5 +1,6 @@
 #include "tools/reproduce/reasons.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -23,7 +24,7 @@ bool same(const Sample& a, const Sample& b) {
 
 Altered altered(std::string kind, std::string name, std::string what, const Outcomes& base,
                 const Outcomes& changed, const Outcomes& same) {
-  Altered a{std::move(kind), std::move(name), std::move(what), changed, {}};
+  Altered a{std::move(kind), std::move(name), std::move(what), changed, {}, false};
   std::set<int> beds;
   for (const auto& [condition, runs] : changed) {
     for (const auto& [bed, run] : runs) beds.insert(bed);
@@ -47,6 +48,15 @@ Altered sole_reading(const Outcomes& base) {
                  base, read_by_sole(base), {});
 }
 
+Altered with_sole_reading(const Altered& change) {
+  Altered both = change;
+  both.kind += " and reading", both.name += std::string(" + ") + kSoleReading;
+  both.what += std::string("; ") + kSoleReading;
+  both.with = read_by_sole(change.with);
+  both.both = true;
+  return both;
+}
+
 void try_changes(std::vector<Comparison>& rows, const std::vector<Altered>& changes) {
   for (Comparison& row : rows) row.tried.clear();
   for (const Altered& change : changes) {
@@ -58,8 +68,12 @@ void try_changes(std::vector<Comparison>& rows, const std::vector<Altered>& chan
       if (changed == nullptr || unchanged == nullptr || !changed->ours || !unchanged->ours)
         continue;
       if (same(*changed->ours, *unchanged->ours) || !std::isfinite(changed->ours->mean)) continue;
+      // Of both it says nothing new where it is what one of the two alone gave.
+      const bool known = std::any_of(row.tried.begin(), row.tried.end(),
+                                     [&](const Tried& t) { return same(t.with, *changed->ours); });
+      if (change.both && known) continue;
       row.tried.push_back({change.kind, change.name, change.what, *changed->ours, *unchanged->ours,
-                           changed->judgement() == Judgement::kInside});
+                           changed->judgement() == Judgement::kInside, change.both});
     }
   }
 }

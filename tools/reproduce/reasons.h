@@ -11,11 +11,12 @@ namespace hoof::tools {
 
 /// The same conditions with one thing changed.
 struct Altered {
-  std::string kind;  // "geometry", "reading" ...
-  std::string name;  // "long-spines"
-  std::string what;  // in words
-  Outcomes with;     // changed where the change is of a condition, else the base's
-  Outcomes without;  // the base, of the beds that have a changed run
+  std::string kind;   // "geometry", "reading" ...
+  std::string name;   // "long-spines"
+  std::string what;   // in words
+  Outcomes with;      // changed where the change is of a condition, else the base's
+  Outcomes without;   // the base, of the beds that have a changed run
+  bool both = false;  // read by the sole beside
 };
 
 /// @param changed what was run with the change, of the conditions that it is of
@@ -26,6 +27,9 @@ Altered altered(std::string kind, std::string name, std::string what, const Outc
 inline constexpr const char* kSoleReading = "sole-depth";
 /// Depth as of read_by_sole(): no run is needed.
 Altered sole_reading(const Outcomes& base);
+
+/// The change with depth as of read_by_sole(), against the base read as ever.
+Altered with_sole_reading(const Altered& change);
 
 /// Fills `tried` of each row that has runs.
 void try_changes(std::vector<Comparison>& rows, const std::vector<Altered>& changes);

@@ -270,6 +270,8 @@ std::vector<Altered> changes(const Campaign& campaign, const std::vector<Variati
     all.push_back(
         altered(v.kind, v.name, v.what, base, campaign.outcomes(v.name), unchanged(base, v)));
   }
+  const std::size_t single = all.size();
+  for (std::size_t i = 1; i < single; ++i) all.push_back(with_sole_reading(all[i]));
   return all;
 }
 

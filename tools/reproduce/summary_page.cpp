@@ -34,28 +34,34 @@ std::string in_full(const std::vector<std::string>& sentences) {
   return all;
 }
 
-/// Targets by changes: what each makes of each.
-std::string changes(const std::vector<Comparison>& rows) {
+/// Targets by changes: what each makes of each. @param both those read by the sole beside
+std::string changes_table(const std::vector<Comparison>& rows, bool both) {
   std::vector<const Tried*> columns;
   for (const Comparison& row : rows) {
     for (const Tried& t : row.tried) {
       const bool known = std::any_of(columns.begin(), columns.end(),
                                      [&](const Tried* c) { return c->name == t.name; });
-      if (!known) columns.push_back(&t);
+      if (t.both == both && !known) columns.push_back(&t);
     }
   }
   if (columns.empty()) return "";
-  std::string html = element("h2", "One thing changed") + "<dl>\n";
-  for (const Tried* c : columns) {
-    html += element("dt", c->name) + element("dd", c->kind + ": " + c->what) + "\n";
+  std::string html;
+  if (!both) {
+    html += "<dl>\n";
+    for (const Tried* c : columns) {
+      html += element("dt", c->name) + element("dd", c->kind + ": " + c->what) + "\n";
+    }
+    html += "</dl>\n";
   }
-  html += "</dl>\n<table class=\"changes\">\n<tr>" + element("th", "target") +
-          element("th", "accepted") + element("th", "ours");
+  html += "<table class=\"changes\">\n<tr>" + element("th", "target") + element("th", "accepted") +
+          element("th", "ours");
   for (const Tried* c : columns) html += element("th", c->name);
   html += "</tr>\n";
   for (const Comparison& row : rows) {
     const bool band = row.low != 0 || row.high != 0;
-    if (row.tried.empty() || !band) continue;
+    const bool any = std::any_of(row.tried.begin(), row.tried.end(),
+                                 [&](const Tried& t) { return t.both == both; });
+    if (!any || !band) continue;
     html += "<tr>" + element("td", row.name) +
             element("td", digits(row.low) + " to " + digits(row.high)) +
             element("td", row.ours ? digits(row.ours->mean) : "",
@@ -71,11 +77,18 @@ std::string changes(const std::vector<Comparison>& rows) {
     }
     html += "</tr>\n";
   }
-  return html + "</table>\n" +
+  return html + "</table>\n";
+}
+
+std::string changes(const std::vector<Comparison>& rows) {
+  const std::string one = changes_table(rows, false), both = changes_table(rows, true);
+  if (one.empty()) return "";
+  return element("h2", "One thing changed") + one +
          element("p",
                  "Green: inside what is accepted. Each number is of the beds that were run "
                  "with the change; what the same beds give without it stands behind it, and "
-                 "in changes.csv. Empty: the change is none of these runs, or was not run.");
+                 "in changes.csv. Empty: the change is none of these runs, or was not run.") +
+         (both.empty() ? "" : element("h2", "And depth counted by the sole") + both);
 }
 
 std::string table(const std::vector<Comparison>& rows) {

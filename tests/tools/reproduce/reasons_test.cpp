@@ -113,6 +113,31 @@ TEST_CASE("reasons: depth by the sole needs no run") {
   CHECK(read_by_sole(base)[kSpined][2].sinkage_mm == 8.7);
 }
 
+TEST_CASE("reasons: a change and the reading by the sole together, where neither alone explains") {
+  const auto with_soles = [](Outcomes outcomes, double spined_mm, double plain_mm) {
+    for (auto& [bed, run] : outcomes[kSpined]) run.sole_sinkage_mm = spined_mm;
+    for (auto& [bed, run] : outcomes[kPlain]) run.sole_sinkage_mm = plain_mm;
+    return outcomes;
+  };
+  const Outcomes base = with_soles(depths(20, 10, {1, 2}), 2, 10);  // 2, by the sole 0.2
+  const Outcomes loose = with_soles(depths(30, 20, {1, 2}), 18, 20);
+  const Altered change = altered("packing", "loose-sand", "loose", base, loose, {});
+  const Comparison row = judged(base, {sole_reading(base), change, with_sole_reading(change)});
+  REQUIRE(row.tried.size() == 3);
+  CHECK(row.found() ==
+        "inside by packing and reading (loose-sand + sole-depth): 0.9 in place of 2 on 2 beds");
+  // Where the change alone does it, the two together say nothing more.
+  const Outcomes looser = with_soles(depths(18, 20, {1, 2}), 17, 20);
+  const Altered enough = altered("packing", "looser-sand", "looser", base, looser, {});
+  CHECK(judged(base, {sole_reading(base), enough, with_sole_reading(enough)}).found() ==
+        "inside by packing (looser-sand): 0.9 in place of 2 on 2 beds");
+  // Without spines both are the change alone.
+  const Comparison plain =
+      judged(base, {sole_reading(base), change, with_sole_reading(change)}, kPlain);
+  REQUIRE(plain.tried.size() == 1);
+  CHECK(plain.tried[0].name == "loose-sand");
+}
+
 TEST_CASE("reasons: of a variation the base counts where it changes nothing") {
   const Outcomes base = depths(20, 10, {1});
   for (const Variation& v : all_variations({})) {
