@@ -1,6 +1,7 @@
 #include "tools/reproduce/cell.h"
 
 #include <algorithm>
+#include <iterator>
 #include <regex>
 #include <stdexcept>
 
@@ -105,6 +106,13 @@ std::vector<std::string> CampaignSettings::of(const std::string& kind) const {
   std::vector<std::string> all = of_all;
   if (kind == "sinkage") all.insert(all.end(), of_sinkage.begin(), of_sinkage.end());
   all.insert(all.end(), asked.begin(), asked.end());
+  return all;
+}
+
+std::vector<std::string> CampaignSettings::of_both() const {
+  std::vector<std::string> all = of_all;
+  std::copy_if(asked.begin(), asked.end(), std::back_inserter(all),
+               [](const std::string& setting) { return !setting.starts_with("experiment."); });
   return all;
 }
 

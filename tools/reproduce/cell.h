@@ -37,6 +37,8 @@ struct CampaignSettings {
   std::vector<std::string> asked;  // by the user, of all
 
   std::vector<std::string> of(const std::string& kind) const;
+  /// What both kinds know: without what was asked of an experiment, as one of them may not have it.
+  std::vector<std::string> of_both() const;
   /// With what the cell is: its own counts last, as its name says it.
   std::vector<std::string> of(const Cell& cell) const;
 };

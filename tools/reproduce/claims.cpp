@@ -32,7 +32,7 @@ class Inquiry {
   explicit Inquiry(const ClaimsOptions& options)
       : options_(options), settings_(options.ground.settings()) {
     settings_.asked = options.settings;
-    variations_ = claim_variations(settings_.of("sinkage"));
+    variations_ = claim_variations(settings_.of_both());
     claims_ = chosen(paper_claims(), options.names);
     used_ = chosen(variations_, options.variations);
   }

@@ -278,7 +278,7 @@ std::vector<Altered> changes(const Campaign& campaign, const std::vector<Variati
 void run_campaign(const ReproduceOptions& options) {
   CampaignSettings settings = options.ground.settings();
   settings.asked = options.settings;
-  const std::vector<Variation> variations = all_variations(settings.of("sinkage"));
+  const std::vector<Variation> variations = all_variations(settings.of_both());
   const std::vector<Cell> plan =
       plan_cells(options.parts, options.design(), options.beds, options.first_bed);
   std::vector<Cell> cells = plan;

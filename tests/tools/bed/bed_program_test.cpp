@@ -117,7 +117,7 @@ TEST_CASE("what is wrong with a bed command is one line and exit status 2") {
   };
   const Case cases[] = {
       {"", "bed: A subcommand is required"},
-      {"make --bed absent", "use.bed = \"absent\": must be one of: bench, demo, paper"},
+      {"make --bed absent", "use.bed = \"absent\": must be one of: bench, demo, medium, paper"},
       {"make --threads 0", "--threads: Value 0 not in range"},
       {"make --sieve " + table, "sieve.csv:3: passing_percent = 99.0: must be 100"},
       {"make --sieve-range 1", "--sieve-range: At least 2 required"},

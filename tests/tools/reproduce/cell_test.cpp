@@ -64,6 +64,10 @@ TEST_CASE("ground: a traction knows no rest, and what is asked for counts last")
   CampaignSettings settings = Ground{"bench", "dem"}.settings();
   CHECK_NOTHROW(read_run_settings("traction", settings.of("traction")));
   CHECK(read_run_settings("sinkage", settings.of("sinkage")).sinkage.rest_speed_m_s == 0.020);
+  // Variations are of the bed: they must not stumble over what a traction alone knows.
+  settings.asked = {"experiment.cycles=2", "bed.depth_mm=80"};
+  CHECK_THROWS(read_run_settings("sinkage", settings.of("sinkage")));
+  CHECK(read_run_settings("sinkage", settings.of_both()).bed.depth_m == Approx(0.08));
   // What the name of a run says is so, whatever the ground and the user say of all.
   Cell finer = cell_of("sinkage-bionic-toe0-10kg-0.1m_s");
   finer.variation = "fine-grains", finer.changes = {"bed.steps_per_ms=240"};
