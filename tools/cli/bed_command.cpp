@@ -73,7 +73,8 @@ void add_info(CLI::App& parent, Invocation& invocation) {
   };
   auto options = std::make_shared<InfoOptions>();
   CLI::App* command = parent.add_subcommand("info", "What a bed that was made is like");
-  command->add_option("BED", options->bed.bed, "A bed file, or demo, medium, bench, paper, FILE.toml")
+  command
+      ->add_option("BED", options->bed.bed, "A bed file, or demo, medium, bench, paper, FILE.toml")
       ->required();
   add_settings_flags(*command, options->bed);
   command->add_flag("--json", options->json, "One JSON object, SI units");
@@ -96,7 +97,8 @@ void add_export(CLI::App& parent, Invocation& invocation) {
   auto options = std::make_shared<ExportBedOptions>();
   CLI::App* command =
       parent.add_subcommand("export", "Grains, contacts and a foot for ParaView, or a table");
-  command->add_option("BED", options->bed.bed, "A bed file, or demo, medium, bench, paper, FILE.toml")
+  command
+      ->add_option("BED", options->bed.bed, "A bed file, or demo, medium, bench, paper, FILE.toml")
       ->required();
   add_settings_flags(*command, options->bed);
   command->add_option("--csv", options->csv, "Table of the grains, SI units")->type_name("FILE");

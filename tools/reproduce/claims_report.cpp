@@ -61,7 +61,8 @@ std::string counted(const JudgedClaim& j, Finding finding) {
   std::string names;
   for (std::size_t i = 1; i < j.under.size(); ++i) {
     const bool counts = j.under[i].kind != "reading";
-    if (counts && j.under[i].finding == finding) names += (names.empty() ? "" : " ") + j.under[i].variation;
+    if (counts && j.under[i].finding == finding)
+      names += (names.empty() ? "" : " ") + j.under[i].variation;
   }
   return names.empty() ? "-" : names;
 }
@@ -130,7 +131,8 @@ std::string drawing(const JudgedClaim& j, std::size_t at) {
   const double tall = kRow * double(j.under.size()) + 24;
   char part[400];
   std::snprintf(part, sizeof part,
-                "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 720 %.0f\" style=\"max-width:720px\" "
+                "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 720 %.0f\" "
+                "style=\"max-width:720px\" "
                 "font-family=\"sans-serif\" font-size=\"12\">\n"
                 "<path d=\"M%.1f 0V%.1f\" stroke=\"#888\" stroke-dasharray=\"4 3\"/>"
                 "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">%.3g</text>\n",

@@ -326,6 +326,12 @@ Judgement Comparison::judgement() const {
   return ours->mean >= low && ours->mean <= high ? Judgement::kInside : Judgement::kOutside;
 }
 
+std::string Comparison::cannot_tell_text() const {
+  std::string text;
+  for (const std::string& sentence : cannot_tell) text += (text.empty() ? "" : "; ") + sentence;
+  return text;
+}
+
 std::string Comparison::found() const {
   if (judgement() != Judgement::kOutside || tried.empty()) return "";
   const auto beyond = [&](const Tried& t) {  // the band

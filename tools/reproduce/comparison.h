@@ -40,6 +40,8 @@ struct Comparison {
   std::vector<Tried> tried = {};
 
   Judgement judgement() const;
+  /// The sentences as one text.
+  std::string cannot_tell_text() const;
   /// Of one that is outside, as far as it was found: each change that brings it inside, where there
   /// is none each with which the reading by the sole does, or what came nearest. Empty: inside, or
   /// nothing was tried.

@@ -10,9 +10,10 @@ CampaignSettings Ground::settings() const {
   if (scale == "bench") settings.of_all.push_back("bed.steps_per_ms=180");
   if (scale == "medium") settings.of_all.push_back("bed.steps_per_ms=120");
   if (scale != "bench" && scale != "medium") return settings;
-  // Sand that nothing touches yet costs as much as sand under a foot: it wakes 1 mm below the foot
-  // for the preset's 5, and a foot rests once it trembles at less than 20 mm/s for its 5. It rings
-  // at 60 Hz and more then, less than 0.05 mm to either side. Half the cost of a sinkage again.
+  // Sand that nothing touches yet costs as much as sand under a foot: it wakes at 1 mm below the
+  // foot for the preset's 5, and a foot rests once it trembles at less than 20 mm/s for its 5. It
+  // rings at 60 Hz and more then, less than 0.05 mm to either side. Half the cost of a sinkage
+  // again.
   settings.of_all.push_back("coupling.sleep_margin_mm=1");
   settings.of_sinkage = {"experiment.rest_speed_mm_s=20"};
   return settings;

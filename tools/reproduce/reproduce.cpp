@@ -43,12 +43,6 @@ std::string figure(double value) {
   return text;
 }
 
-std::string joined(const std::vector<std::string>& sentences) {
-  std::string text;
-  for (const std::string& sentence : sentences) text += (text.empty() ? "" : "; ") + sentence;
-  return text;
-}
-
 /// @param found whether with a column for it; a terminal has it as lines of its own
 Table table_of(const std::vector<Comparison>& rows, bool found) {
   std::vector<Table::Column> columns = {
@@ -70,7 +64,7 @@ Table table_of(const std::vector<Comparison>& rows, bool found) {
                                       to_string(row.judgement()),
                                       to_string(row.standing),
                                       row.note,
-                                      joined(row.cannot_tell)};
+                                      row.cannot_tell_text()};
     if (found) cells.push_back(row.found());
     table.row(cells);
   }

@@ -17,7 +17,7 @@ std::string digits(double value) {
   return text;
 }
 
-/// What a bed cannot tell: without the numbers, and with them.
+/// What a bed cannot tell: without the numbers.
 std::string in_short(const std::vector<std::string>& sentences) {
   std::string all, last;
   for (const std::string& sentence : sentences) {
@@ -25,12 +25,6 @@ std::string in_short(const std::vector<std::string>& sentences) {
     if (name != last) all += (all.empty() ? "" : "; ") + name;
     last = name;
   }
-  return all;
-}
-
-std::string in_full(const std::vector<std::string>& sentences) {
-  std::string all;
-  for (const std::string& sentence : sentences) all += (all.empty() ? "" : "; ") + sentence;
   return all;
 }
 
@@ -114,7 +108,7 @@ std::string table(const std::vector<Comparison>& rows) {
             element("td", to_string(row.standing)) + element("td", row.note) +
             element("td", row.found()) +
             element("td", in_short(row.cannot_tell),
-                    " title=\"" + html_escape(in_full(row.cannot_tell)) + "\"") +
+                    " title=\"" + html_escape(row.cannot_tell_text()) + "\"") +
             "</tr>\n";
   }
   html += "</table>\n";
