@@ -42,6 +42,17 @@ std::string csv_of(const Design& design, const std::vector<Factor>& factors,
   return text;
 }
 
+/// A coefficient that may not be below nothing can come out so.
+void warn_of_axial_runs(const std::vector<Factor>& factors, double axis) {
+  std::cerr << "axial runs go beyond the bounds, to";
+  for (const Factor& f : factors) {
+    char text[80];
+    std::snprintf(text, sizeof text, " %.4g and %.4g", f.value(-axis), f.value(axis));
+    std::cerr << (&f == &factors.front() ? " " : ", ") << f.name << text;
+  }
+  std::cerr << "; --within keeps them inside\n";
+}
+
 void run(const DesignRequest& request, bool box) {
   std::vector<Factor> factors;
   for (const std::string& text : request.factors) {
@@ -61,6 +72,7 @@ void run(const DesignRequest& request, bool box) {
   const double axis = request.within ? 1 : rotatable_axis(count);
   const Design design =
       box ? box_behnken(count, request.centres) : central_composite(count, request.centres, axis);
+  if (!box && !request.within) warn_of_axial_runs(factors, axis);
   const std::string text = csv_of(design, factors, request);
   if (request.out.empty()) {
     std::cout << text;
@@ -93,8 +105,8 @@ void add_design(CLI::App& parent, Invocation& invocation, const char* name, cons
   command->add_option("--out", request->out, "File [standard output]")->type_name("FILE.csv");
   command->footer(
       std::string("Add a column with what came out, and give the file to hoof anova.\nExample:\n") +
-      "  hoof design " + name +
-      " --factor e=0.1:0.8 --factor mu_r=0.1:0.4 --factor mu_s=0.2:0.9 --out plan.csv");
+      "  hoof design " + name + " --factor e=0.1:0.8 --factor mu_r=0.1:0.4 --factor mu_s=0.2:0.9" +
+      (box ? "" : " --within") + " --out plan.csv");
   command->callback(
       [&invocation, request, box] { invocation.run = [request, box] { run(*request, box); }; });
 }

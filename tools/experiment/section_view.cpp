@@ -88,20 +88,21 @@ std::string draw_section(const sim::BedState& before, const sim::BedState& after
   append(svg,
          "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\" role=\"img\" "
          "aria-label=\"Foot in sand, cut lengthwise\">\n",
-         width, height + 30);
-  append(svg, "<rect width=\"%.0f\" height=\"%.0f\" fill=\"#ffffff\"/>\n", width, height + 30);
+         width, height + 50);
+  append(svg, "<rect width=\"%.0f\" height=\"%.0f\" fill=\"#ffffff\"/>\n", width, height + 50);
   svg += "<g stroke=\"#8a7a55\" stroke-width=\"0.6\">\n";
   draw_grains(svg, f, before, after, d50_m);
   svg += "</g>\n<g stroke=\"#1d3557\" stroke-width=\"3\" stroke-linecap=\"round\" fill=\"none\">\n";
   for (int body = 0; body < rig.body_count(); ++body) draw_body(svg, f, rig, body);
-  svg += "</g>\n";
+  svg += "</g>\n<g font-family=\"sans-serif\" font-size=\"15\" fill=\"#1d3557\">\n";
   append(svg,
-         "<path d=\"M%.0f %.0fh%.0f\" stroke=\"#1d3557\" stroke-width=\"3\"/>\n"
-         "<text x=\"%.0f\" y=\"%.0f\" font-family=\"sans-serif\" font-size=\"15\" "
-         "fill=\"#1d3557\">50 mm; cut at y = %.0f mm; colour: way of the grains, dark red = d50 "
-         "(%.1f mm)</text>\n",
-         8.0, height + 16, 0.05 * kPixels_m, 16 + 0.05 * kPixels_m, height + 21, cut_y_m * 1e3,
-         d50_m * 1e3);
+         "<path d=\"M8 %.0fh%.0f\" stroke=\"#1d3557\" stroke-width=\"3\"/>\n"
+         "<text x=\"%.0f\" y=\"%.0f\">50 mm; cut at y = %.0f mm</text>\n",
+         height + 16, 0.05 * kPixels_m, 16 + 0.05 * kPixels_m, height + 21, cut_y_m * 1e3);
+  append(svg,
+         "<text x=\"8\" y=\"%.0f\">colour: way of the grains, dark red = d50 (%.1f mm)</text>\n"
+         "</g>\n",
+         height + 41, d50_m * 1e3);
   svg += "</svg>\n";
   return svg;
 }

@@ -54,7 +54,8 @@ class Plot {
     for (const PlotLine& line : lines) {
       for (std::size_t i = 0; i < line.points.size(); ++i) {
         const auto& [x, y] = line.points[i];
-        const double bar = i < line.half_range.size() ? line.half_range[i] : 0;
+        const bool has_bar = i < line.half_range.size() && std::isfinite(line.half_range[i]);
+        const double bar = has_bar ? line.half_range[i] : 0;
         x_.cover(x), y_.cover(y - bar), y_.cover(y + bar);
       }
     }
@@ -102,9 +103,10 @@ class Plot {
     svg += "\"/>\n";
     for (std::size_t i = 0; i < std::min(line.half_range.size(), line.points.size()); ++i) {
       const auto& [px, py] = line.points[i];
-      if (!std::isfinite(px) || !std::isfinite(py)) continue;
-      append(svg, "<path d=\"M%.1f %.1fV%.1f\" stroke=\"%s\"/>", x(px), y(py - line.half_range[i]),
-             y(py + line.half_range[i]), colour);
+      const double half = line.half_range[i];
+      if (!std::isfinite(px) || !std::isfinite(py) || !std::isfinite(half)) continue;
+      append(svg, "<path d=\"M%.1f %.1fV%.1f\" stroke=\"%s\"/>", x(px), y(py - half), y(py + half),
+             colour);
       append(svg, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3\" fill=\"%s\"/>\n", x(px), y(py), colour);
     }
     append(svg, "<path d=\"M%.1f %.1fh24\" stroke=\"%s\"%s stroke-width=\"2\"/>",

@@ -13,7 +13,7 @@ struct PlotLine {
   int colour = 0;  // lines of one group share it
   bool dashed = false;
   bool marks = false;  // a circle at each point in place of the line: what was measured or printed
-  std::vector<double> half_range = {};  // of a bar at each point, in y; empty: no bars
+  std::vector<double> half_range = {};  // of a bar at each point, in y; empty, NaN: none
 };
 
 /// kFromZero: both axes begin at zero. kTight: they cover the points.
