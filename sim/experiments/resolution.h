@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/experiments/traction.h"
 #include "sim/multibody/foot_geometry.h"
 #include "sim/terrain/bed_settings.h"
 
@@ -30,5 +31,14 @@ Resolution assess_resolution(const BedSettings& bed, const FootGeometry& foot, d
 /// its bound, and by how much forces in it may be off. Empty where the box is large enough.
 std::vector<std::string> box_warnings(const BedSettings& bed, double footprint_x_m,
                                       double footprint_y_m);
+
+/// The least length of the box for a foot whose ends go reach_m to either side of its middle: the
+/// largest grain fits between them and each end wall. In a shorter one a wall stops the foot.
+double least_length_m(const BedSettings& bed, double reach_m);
+
+/// As box_warnings, of the length that a foot needs that is pulled along a path: before an end wall
+/// sand gives way as before a retaining wall as high as the foot's ends are deep. Empty where there
+/// is room, or no wall.
+std::string wall_warning(const BedSettings& bed, double reach_m, const StanceEllipse& path);
 
 }  // namespace hoof::sim

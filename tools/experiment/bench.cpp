@@ -1,6 +1,5 @@
 #include "tools/experiment/bench.h"
 
-#include <Eigen/Geometry>
 #include <filesystem>
 
 #include "sim/experiments/resolution.h"
@@ -10,6 +9,7 @@
 #include "sim/terrain/bed_store.h"
 #include "sim/terrain/dem_terrain.h"
 #include "sim/terrain/rft_terrain.h"
+#include "tools/experiment/foot_plan.h"
 
 namespace hoof::tools {
 namespace {
@@ -58,9 +58,13 @@ std::unique_ptr<sim::Terrain> make_terrain(const RunSettings& run, const BenchPr
     add_soil_effects(run, *soil);
     return soil;
   }
-  const Eigen::Vector2d print_m = footprint_m(run.foot, run.toe_rad());
+  const Eigen::Vector2d print_m = foot_plan_m(run.foot, run.toe_rad()).sizes();
   for (const std::string& warning : sim::box_warnings(run.bed, print_m.x(), print_m.y())) {
     note(warning);
+  }
+  if (!run.is_sinkage()) {
+    const std::string near = sim::wall_warning(run.bed, reach_m(run), run.traction.ellipse);
+    if (!near.empty()) note(near);
   }
   auto sand = std::make_unique<sim::DemTerrain>(
       sim::dem_settings(run.bed, run.materials, run.threads), settled_bed(run, progress, note));
@@ -96,20 +100,6 @@ const sim::SandBed* find_sand(const sim::Terrain& ground) {
   }
   const auto* sand = dynamic_cast<const sim::DemTerrain*>(under);
   return sand == nullptr ? nullptr : &sand->bed();
-}
-
-Eigen::Vector2d footprint_m(const sim::Foot& foot, double toe_rad) {
-  Eigen::AlignedBox2d box;
-  for (const Eigen::Vector3d& v : foot.middle.vertices_m) box.extend(v.head<2>());
-  if (foot.has_toes) {
-    const Eigen::Rotation2Dd turn(toe_rad);  // the left toe opens to +y
-    for (const Eigen::Vector3d& v : foot.left_toe.vertices_m) {
-      const Eigen::Vector2d p = foot.hinges.left_F_m.head<2>() + turn * v.head<2>();
-      box.extend(p);
-      box.extend(Eigen::Vector2d(p.x(), -p.y()));
-    }
-  }
-  return box.sizes();
 }
 
 }  // namespace hoof::tools

@@ -31,7 +31,4 @@ bridge::SessionSettings session_settings(const RunSettings& run);
 /// Null where the ground is not of grains.
 const sim::SandBed* find_sand(const sim::Terrain& ground);
 
-/// Outer size of the foot on the ground in x and y, toes opened by toe_rad, m.
-Eigen::Vector2d footprint_m(const sim::Foot& foot, double toe_rad);
-
 }  // namespace hoof::tools

@@ -285,12 +285,16 @@ class Run {
           mm("final_depth_m"), mm("max_sole_depth_m"),
           r.at("rested").get<bool>() ? "" : ", not yet at rest");
     } else {
+      const auto& coefficient = r.at("traction_coefficient");
+      char ratio[48] = "none (nothing carries the foot then)";
+      if (coefficient.is_number()) {
+        std::snprintf(ratio, sizeof ratio, "%.3f", coefficient.get<double>());
+      }
       std::printf(
-          "%s foot, %.3g Hz: Fx peak %.1f N, Fz there %.1f N, traction coefficient %.3f, "
-          "off the ellipse by %.1f mm\n",
+          "%s foot, %.3g Hz: Fx peak %.1f N, Fz there %.1f N, traction coefficient %s, off the "
+          "ellipse by %.1f mm\n",
           run_.foot_name.c_str(), run_.traction.frequency_Hz, r.at("fx_peak_N").get<double>(),
-          r.at("fz_at_fx_peak_N").get<double>(), r.at("traction_coefficient").get<double>(),
-          mm("ellipse_error_m"));
+          r.at("fz_at_fx_peak_N").get<double>(), ratio, mm("ellipse_error_m"));
     }
     if (run_.concealed) {
       std::printf("what was added to the plant stands in %s\n", output_.truth.string().c_str());

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "tools/experiment/bench.h"
+#include "tools/experiment/foot_plan.h"
 #include "tools/fields/field_export.h"
 #include "tools/fields/field_map.h"
 #include "tools/fields/field_measures.h"
@@ -20,7 +21,7 @@ using Json = nlohmann::ordered_json;
 /// The foot's plan on its whole way with what is around it, down to the floor: as wide on each side
 /// as three grains, or 40 mm, the width of the middle segment.
 Eigen::AlignedBox3d region_of(const RunSettings& run, const sim::Rig& rig) {
-  const Eigen::Vector2d print_m = footprint_m(run.foot, run.toe_rad());
+  const Eigen::Vector2d print_m = foot_plan_m(run.foot, run.toe_rad()).sizes();
   const double margin_m = std::max(0.040, 3 * run.bed.d50_m());
   const double way_m = run.is_sinkage() ? 0 : run.traction.ellipse.half_length_m;
   const double middle_x_m = run.is_sinkage() ? rig.foot_position_m().x() : 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <string_view>
 #include <thread>
@@ -10,6 +11,8 @@
 #include "sim/config/config_error.h"
 #include "sim/config/reader.h"
 #include "sim/config/suggestion.h"
+#include "sim/experiments/resolution.h"
+#include "tools/experiment/foot_plan.h"
 #include "tools/experiment/run_bus.h"
 #include "tools/run/csv_writer.h"
 #include "tools/run/errors.h"
@@ -145,6 +148,19 @@ void read_experiment(const sim::Reader& root, RunSettings& run) {
   section.finish();
 }
 
+/// A wall at the end of its path stops a foot, and what is measured then is the wall.
+void refuse_walls_in_the_way(const RunSettings& run) {
+  if (run.is_sinkage() || !run.on_grains() || run.bed.periodic_sides) return;
+  const double least_m = sim::least_length_m(run.bed, reach_m(run));
+  if (run.bed.box_length_m >= least_m) return;
+  fail(*run.tree.find("bed.box_length_mm"), "bed.box_length_mm",
+       "must be at least " + format_number(std::ceil(1e3 * least_m)) +
+           " for this traction: the ends of the foot go " +
+           format_number(std::round(1e3 * reach_m(run))) +
+           " mm to either side, and between them and the end walls a grain must fit; "
+           "bed.box_length_mm=530 is the paper's");
+}
+
 void read_drives(const sim::Reader& root, RunSettings& run) {
   sim::Reader drives = root.section("drives");
   std::string name;
@@ -186,6 +202,11 @@ std::array<bool, sim::kJointCount> RunSettings::has_drives() const {
   return {drives[0].has_value(), drives[1].has_value(), drives[2].has_value()};
 }
 
+double reach_m(const RunSettings& run) {
+  const Eigen::AlignedBox2d plan = foot_plan_m(run.foot, run.toe_rad());
+  return run.traction.ellipse.half_length_m + std::max(plan.max().x(), -plan.min().x());
+}
+
 RunSettings read_run_settings(const std::string& experiment,
                               const std::vector<std::string>& overrides,
                               const std::string& fault_file, const std::string& effects_file) {
@@ -209,6 +230,7 @@ RunSettings read_run_settings(const std::string& experiment,
   }
   if (!run.is_sinkage()) run.leg = sim::read_leg(root.section("leg"));
   run.bed = sim::read_bed(root.section("bed"));
+  refuse_walls_in_the_way(run);
   run.materials = sim::read_materials(root.section("materials"));
   read_drives(root, run);
   run.coupling = sim::read_coupling(root.section("coupling"));

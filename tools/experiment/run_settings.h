@@ -62,6 +62,9 @@ struct RunSettings {
   bool firmware_leg() const { return !is_sinkage() && !traction.prescribed; }
 };
 
+/// Of a traction run: how far the ends of the foot go to either side of the middle of the bed.
+double reach_m(const RunSettings& run);
+
 /// @param experiment "sinkage", "traction" or a TOML file of one
 /// @param overrides "dotted.key=value", as of --set; keys "control.NAME" are firmware parameters
 /// @param fault_file TOML with [[fault]] entries and nothing else; "" for none

@@ -6,6 +6,7 @@
 #include "firmware/protocol/protocol_hash.h"
 #include "sim/experiments/resolution.h"
 #include "tools/experiment/bench.h"
+#include "tools/experiment/foot_plan.h"
 #include "tools/experiment/run_bus.h"
 #include "tools/run/sha256.h"
 #include "tools/run/version.h"
@@ -33,7 +34,7 @@ Json by_bus(const std::array<double, bridge::kBusCount>& values) {
 }
 
 Json resolution(const RunSettings& run, double sinkage_m) {
-  const Eigen::Vector2d print = footprint_m(run.foot, run.toe_rad());
+  const Eigen::Vector2d print = foot_plan_m(run.foot, run.toe_rad()).sizes();
   const sim::Resolution r =
       sim::assess_resolution(run.bed, run.foot.geometry, print.x(), print.y(), sinkage_m);
   Json j = Json::object();
@@ -201,7 +202,8 @@ Json summarise(const RunSettings& run, const sim::Experiment& experiment,
     j["final_depth_m"] = std::max(0.0, -experiment.plant().rig().foot_position_m().z());
     j["fx_peak_N"] = peaks.fx_peak_N;
     j["fz_at_fx_peak_N"] = peaks.fz_at_fx_peak_N;
-    j["traction_coefficient"] = peaks.traction_coefficient();
+    const double coefficient = peaks.traction_coefficient();
+    j["traction_coefficient"] = std::isfinite(coefficient) ? Json(coefficient) : Json(nullptr);
     j["fz_peak_N"] = peaks.fz_peak_N;
     j["fx_peak_time_s"] = peaks.fx_peak_time_s;
     j["ellipse_error_m"] = recorder.ellipse_error_m();

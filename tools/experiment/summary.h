@@ -1,6 +1,7 @@
 // result.json of a sinkage or traction run.
 #pragma once
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -21,9 +22,10 @@ struct TractionPeaks {
   double fz_peak_N = 0;
   double fx_peak_time_s = 0;
 
-  /// The paper's: Fx at its peak over Fz at the same instant; 0 where nothing was touched.
+  /// The paper's: Fx at its peak over Fz at the same instant; NaN where nothing carries the foot
+  /// then.
   double traction_coefficient() const {
-    return fz_at_fx_peak_N > 0 ? fx_peak_N / fz_at_fx_peak_N : 0;
+    return fz_at_fx_peak_N > 0 ? fx_peak_N / fz_at_fx_peak_N : std::nan("");
   }
 };
 

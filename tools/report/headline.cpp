@@ -73,7 +73,7 @@ std::vector<HeadlineRow> headline(const RunData& data) {
     }
     const std::string key(rule.key);
     const auto value = table->find(key);
-    if (value == table->end()) continue;
+    if (value == table->end() || value->is_null()) continue;
     const std::string label(rule.label);
     if (!value->is_object()) {
       rows.push_back(headline_row(label, key, *value));

@@ -1,7 +1,6 @@
 #include "tools/reproduce/cell.h"
 
 #include <algorithm>
-#include <iterator>
 #include <regex>
 #include <stdexcept>
 
@@ -104,15 +103,15 @@ std::vector<Cell> conditions(Part part, Design design) {
 
 std::vector<std::string> CampaignSettings::of(const std::string& kind) const {
   std::vector<std::string> all = of_all;
-  if (kind == "sinkage") all.insert(all.end(), of_sinkage.begin(), of_sinkage.end());
+  const std::vector<std::string>& own = kind == "sinkage" ? of_sinkage : of_traction;
+  all.insert(all.end(), own.begin(), own.end());
   all.insert(all.end(), asked.begin(), asked.end());
   return all;
 }
 
-std::vector<std::string> CampaignSettings::of_both() const {
-  std::vector<std::string> all = of_all;
-  std::copy_if(asked.begin(), asked.end(), std::back_inserter(all),
-               [](const std::string& setting) { return !setting.starts_with("experiment."); });
+std::vector<std::string> CampaignSettings::ground_of(const std::string& kind) const {
+  std::vector<std::string> all = of(kind);
+  std::erase_if(all, [](const std::string& s) { return s.starts_with("experiment."); });
   return all;
 }
 

@@ -33,12 +33,12 @@ struct Cell {
 /// What all runs of a campaign share, "dotted.key=value". Of two of a key the last counts.
 struct CampaignSettings {
   std::vector<std::string> of_all;
-  std::vector<std::string> of_sinkage;
+  std::vector<std::string> of_sinkage, of_traction;
   std::vector<std::string> asked;  // by the user, of all
 
   std::vector<std::string> of(const std::string& kind) const;
-  /// What both kinds know: without what was asked of an experiment, as one of them may not have it.
-  std::vector<std::string> of_both() const;
+  /// The ground of a kind: without what is asked of an experiment, as the other may not know it.
+  std::vector<std::string> ground_of(const std::string& kind) const;
   /// With what the cell is: its own counts last, as its name says it.
   std::vector<std::string> of(const Cell& cell) const;
 };

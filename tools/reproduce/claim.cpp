@@ -28,8 +28,9 @@ std::string open(int deg) {
 
 using Value = double Outcome::*;
 
+/// Infinite where something is over nothing; NaN where both are nothing or one is not known.
 double ratio_of(double above, double below) {
-  return below != 0 ? above / below : NAN;
+  return below != 0 || above > 0 ? above / below : NAN;
 }
 
 double paper_value(const std::string& condition, Value value) {
@@ -51,7 +52,8 @@ Contrast ratio(const std::string& name, const std::string& above, const std::str
           [value](const Runs& runs) { return ratio_of(runs[0].*value, runs[1].*value); },
           below,
           1,
-          ratio_of(paper_value(above, value), paper_value(under, value))};
+          ratio_of(paper_value(above, value), paper_value(under, value)),
+          true};
 }
 
 Claim best_opening() {
@@ -253,16 +255,41 @@ std::optional<Evidence> weigh(const Contrast& contrast, const Outcomes& outcomes
     }
     if (runs.size() != contrast.conditions.size()) continue;
     const double value = contrast.effect(runs);
+    if (std::isinf(value)) ++evidence.infinite;
     if (!std::isfinite(value)) continue;
     values.push_back(value);
     evidence.beds.push_back(bed);
   }
   if (values.empty()) return {};
+  evidence.logarithms = contrast.ratio && *std::min_element(values.begin(), values.end()) > 0;
+  if (evidence.logarithms) {
+    for (double& value : values) value = std::log(value);
+  }
   evidence.sample = sample_of(values);
   return evidence;
 }
 
+double Evidence::mean() const {
+  return logarithms ? std::exp(sample.mean) : sample.mean;
+}
+
+double Evidence::low() const {
+  const double end = sample.mean - sample.confidence;
+  return logarithms ? std::exp(end) : end;
+}
+
+double Evidence::high() const {
+  const double end = sample.mean + sample.confidence;
+  return logarithms ? std::exp(end) : end;
+}
+
+double Evidence::margin(const Contrast& contrast) const {
+  const double bound = logarithms ? std::log(contrast.bound) : contrast.bound;
+  return (contrast.below ? bound - sample.mean : sample.mean - bound) / sample.confidence;
+}
+
 bool holds(const Contrast& contrast, const Evidence& evidence) {
+  if (contrast.below && evidence.infinite > 0) return false;
   // Comparisons with the NaN of a single bed are false.
   return contrast.below ? evidence.high() < contrast.bound : evidence.low() > contrast.bound;
 }

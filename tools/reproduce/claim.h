@@ -18,7 +18,8 @@ struct Contrast {
   std::function<double(const std::vector<Outcome>&)> effect;  // in their order
   bool below = true;  // claimed: effect < bound; else effect > bound
   double bound = 1;
-  double paper = 0;  // NaN: not stated in numbers
+  double paper = 0;    // NaN: not stated in numbers
+  bool ratio = false;  // of two numbers that cannot be below nothing: counts by its logarithm
 };
 
 struct Claim {
@@ -32,21 +33,30 @@ const std::vector<Claim>& paper_claims();
 
 /// What the runs of one variation say of one contrast.
 struct Evidence {
-  Sample sample;          // over beds; its confidence is half of the 95 % interval
+  /// Over beds, of the values or, where all are above 0 and the contrast is a ratio, of their
+  /// logarithms; its confidence is half of the 95 % interval.
+  Sample sample;
+  bool logarithms = false;
   std::vector<int> beds;  // that have all conditions
-  double low() const { return sample.mean - sample.confidence; }
-  double high() const { return sample.mean + sample.confidence; }
+  int infinite = 0;       // beds beside these: something over nothing
+
+  double mean() const;  // of ratios the geometric one
+  double low() const;   // of the 95 % interval; NaN of one bed
+  double high() const;
+  /// How far the mean is on the claimed side of the bound, in half intervals: over 1 it holds. NaN
+  /// of one bed.
+  double margin(const Contrast& contrast) const;
 };
 
 /// Nothing where no bed has all conditions.
 std::optional<Evidence> weigh(const Contrast& contrast, const Outcomes& outcomes);
 
-/// The whole 95 % interval lies on the claimed side of the bound. One bed has no interval.
+/// The whole 95 % interval lies on the claimed side of the bound, and no bed has something over
+/// nothing where less was claimed. One bed has no interval.
 bool holds(const Contrast& contrast, const Evidence& evidence);
 
 enum class Finding { kHolds, kFails, kNotRun };
-/// Of all contrasts of a claim under one variation: kHolds where each holds, kFails where one that
-/// was run does not.
+/// Of all contrasts of a claim: kHolds where each holds, kFails where one that was run does not.
 Finding find(const Claim& claim, const Outcomes& outcomes);
 
 enum class Verdict {

@@ -32,7 +32,7 @@ class Inquiry {
   explicit Inquiry(const ClaimsOptions& options)
       : options_(options), settings_(options.ground.settings()) {
     settings_.asked = options.settings;
-    variations_ = claim_variations(settings_.of_both());
+    variations_ = claim_variations(settings_);
     claims_ = chosen(paper_claims(), options.names);
     used_ = chosen(variations_, options.variations);
   }
@@ -130,18 +130,21 @@ class Inquiry {
   static bool differs(const ClaimUnder& a, const ClaimUnder& b) {
     for (std::size_t i = 0; i < a.evidence.size(); ++i) {
       const auto &of_a = a.evidence[i], &of_b = b.evidence[i];
-      if (of_a && of_b && of_a->sample.mean != of_b->sample.mean) return true;
+      if (of_a && of_b && of_a->mean() != of_b->mean()) return true;
     }
     return false;
   }
 
+  static bool changes(const Contrast& contrast, const Variation& variation) {
+    return std::any_of(contrast.conditions.begin(), contrast.conditions.end(),
+                       [&](const std::string& condition) {
+                         return !varied(cell_of(condition), variation).variation.empty();
+                       });
+  }
+
   static bool changes_any(const Claim& claim, const Variation& variation) {
-    for (const Contrast& contrast : claim.contrasts) {
-      for (const std::string& condition : contrast.conditions) {
-        if (!varied(cell_of(condition), variation).variation.empty()) return true;
-      }
-    }
-    return false;
+    return std::any_of(claim.contrasts.begin(), claim.contrasts.end(),
+                       [&](const Contrast& contrast) { return changes(contrast, variation); });
   }
 
   static ClaimUnder weigh_all(const Claim& claim, const Outcomes& outcomes,
@@ -149,10 +152,19 @@ class Inquiry {
     ClaimUnder under;
     under.variation = variation == nullptr ? "base" : variation->name;
     under.kind = variation == nullptr ? "" : variation->kind;
-    under.finding = find(claim, outcomes);
+    // What a variation changes nothing of says nothing of it.
+    Claim changed = claim;
+    if (variation != nullptr) {
+      std::erase_if(changed.contrasts, [&](const Contrast& c) { return !changes(c, *variation); });
+    }
+    under.finding = find(changed, outcomes);
     for (const Contrast& contrast : claim.contrasts) {
-      under.evidence.push_back(weigh(contrast, outcomes));
       std::vector<std::string> runs;
+      if (variation != nullptr && !changes(contrast, *variation)) {
+        under.evidence.push_back({}), under.runs.push_back(runs);
+        continue;
+      }
+      under.evidence.push_back(weigh(contrast, outcomes));
       if (under.evidence.back()) {
         for (const int bed : under.evidence.back()->beds) {
           for (const std::string& condition : contrast.conditions) {

@@ -16,7 +16,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kRule =
-    "Effects are of runs on the same bed; intervals are of 95 % (Student's t over the beds). "
+    "Effects are of runs on the same bed; intervals are of 95 % (Student's t over the beds), of "
+    "ratios by their logarithms: their means are geometric. "
     "A claim holds where the whole interval of each of its contrasts lies on the claimed side of "
     "the bound. Supported: under the base and under every variation. Fragile: under the base, not "
     "under some variation. Unsupported: not under the base. Open: not all was run, and nothing "
@@ -31,8 +32,12 @@ std::string digits(double value) {
 }
 
 std::string interval(const Evidence& e) {
-  if (!std::isfinite(e.sample.confidence)) return digits(e.sample.mean) + " (one bed)";
-  return digits(e.sample.mean) + " (" + digits(e.low()) + " to " + digits(e.high()) + ")";
+  std::string text = digits(e.mean());
+  text += std::isfinite(e.sample.confidence)
+              ? " (" + digits(e.low()) + " to " + digits(e.high()) + ")"
+              : std::string(" (one bed)");
+  if (e.infinite > 0) text += ", over nothing on " + std::to_string(e.infinite) + " more beds";
+  return text;
 }
 
 std::string to_string(Finding finding) {
@@ -43,16 +48,20 @@ bool holds_there(const Contrast& contrast, const std::optional<Evidence>& eviden
   return evidence && evidence->beds.size() > 1 && holds(contrast, *evidence);
 }
 
-/// How far the interval's nearer end is on the claimed side, in half intervals; the least decides.
+/// By how far the interval's nearer end is on the claimed side; the least decides. Contrasts of one
+/// bed, which have no interval, count only where there are no others, and among themselves by their
+/// values.
 std::size_t weakest(const Claim& claim, const ClaimUnder& under) {
   std::size_t at = 0;
-  double least = INFINITY;
+  std::pair<int, double> least = {3, 0};
   for (std::size_t i = 0; i < claim.contrasts.size(); ++i) {
     if (!under.evidence[i]) continue;
     const Contrast& c = claim.contrasts[i];
-    const Sample& s = under.evidence[i]->sample;
-    const double side = (c.below ? c.bound - s.mean : s.mean - c.bound) / s.confidence;
-    if (!(side >= least)) least = side, at = i;
+    const Evidence& e = *under.evidence[i];
+    std::pair<int, double> here = {1, e.margin(c)};
+    if (c.below && e.infinite > 0) here.first = 0;
+    if (std::isnan(here.second)) here = {2, c.below ? c.bound - e.mean() : e.mean() - c.bound};
+    if (here < least) least = here, at = i;
   }
   return at;
 }
@@ -103,8 +112,9 @@ nlohmann::ordered_json json_of(const JudgedClaim& j) {
       e["contrast"] = c.name, e["claimed"] = c.below ? "below" : "above", e["bound"] = c.bound;
       e["paper"] = number(c.paper);
       if (const auto& seen = under.evidence[i]) {
-        e["mean"] = number(seen->sample.mean);
+        e["mean"] = number(seen->mean());
         e["interval95"] = {number(seen->low()), number(seen->high())};
+        if (seen->infinite > 0) e["beds_over_nothing"] = seen->infinite;
         e["beds"] = seen->beds, e["runs"] = under.runs[i];
         e["holds"] = holds_there(c, seen);
       }
@@ -122,8 +132,9 @@ std::string drawing(const JudgedClaim& j, std::size_t at) {
   for (const ClaimUnder& under : j.under) {
     if (!under.evidence[at]) continue;
     const Evidence& e = *under.evidence[at];
-    const double half = std::isfinite(e.sample.confidence) ? e.sample.confidence : 0;
-    low = std::min(low, e.sample.mean - half), high = std::max(high, e.sample.mean + half);
+    const bool several = std::isfinite(e.sample.confidence);
+    low = std::min(low, several ? e.low() : e.mean());
+    high = std::max(high, several ? e.high() : e.mean());
   }
   if (high == low) high = low + 1;
   constexpr double kLeft = 130, kWide = 420, kRow = 18;
@@ -144,13 +155,13 @@ std::string drawing(const JudgedClaim& j, std::size_t at) {
            html_escape(under.variation) + "</text>";
     if (const auto& e = under.evidence[at]) {
       const char* colour = holds_there(c, e) ? "#009e73" : "#d55e00";
-      const double half = std::isfinite(e->sample.confidence) ? e->sample.confidence : 0;
+      const bool several = std::isfinite(e->sample.confidence);
       std::snprintf(part, sizeof part,
                     "<path d=\"M%.1f %.1fH%.1f\" stroke=\"%s\" stroke-width=\"2\"/>"
                     "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"4\" fill=\"%s\"/>"
                     "<text x=\"560\" y=\"%.1f\">%s</text>\n",
-                    x(e->sample.mean - half), y, x(e->sample.mean + half), colour,
-                    x(e->sample.mean), y, colour, y + 4, interval(*e).c_str());
+                    x(several ? e->low() : e->mean()), y, x(several ? e->high() : e->mean()),
+                    colour, x(e->mean()), y, colour, y + 4, interval(*e).c_str());
       svg += part;
     }
     y += kRow;
@@ -198,7 +209,7 @@ Table rows(const std::vector<JudgedClaim>& claims) {
         std::string name = c.name;  // CSV takes no commas within a text
         std::replace(name.begin(), name.end(), ',', ';');
         table.row({j.claim->name, to_string(j.verdict), under.variation, name,
-                   std::string(c.below ? "below" : "above"), c.bound, e ? e->sample.mean : NAN,
+                   std::string(c.below ? "below" : "above"), c.bound, e ? e->mean() : NAN,
                    e ? e->low() : NAN, e ? e->high() : NAN, std::int64_t(e ? e->beds.size() : 0),
                    c.paper});
       }

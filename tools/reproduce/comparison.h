@@ -12,11 +12,11 @@ namespace hoof::tools {
 
 enum class Standing {
   kPrediction,  // nothing of ours was set on it
-  kInput,       // the geometry, which the paper does not give, was chosen by it
+  kInput,       // what the paper does not give was chosen by it, or by numbers that it is made of
   kShown        // no band: the reference gives none
 };
 
-enum class Judgement { kInside, kOutside, kNotRun, kNoBand };
+enum class Judgement { kInside, kOutside, kUndefined, kNotRun, kNoBand };
 
 /// What became of a target with one thing changed (tools/reproduce/reasons.h).
 struct Tried {
@@ -34,6 +34,8 @@ struct Comparison {
   Standing standing = Standing::kPrediction;
   std::optional<Sample> ours = {};  // over beds; nothing: not run
   std::string note = {};            // what the reader must know
+  double least_below_one = 0;       // accepted, beside the band: share of beds with a value below 1
+  std::size_t undefined = 0;        // beds that were run and have no value, as a ratio to nothing
   /// Of one that is outside: what its runs' own beds say that they cannot tell, in sentences.
   std::vector<std::string> cannot_tell = {};
   /// With what was changed, whether it is outside or not.

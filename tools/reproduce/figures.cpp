@@ -99,6 +99,8 @@ class Gallery {
   }
 
  private:
+  static constexpr std::size_t kBarEvery = 10;
+
   /// As long as the shortest of the beds; bars at every tenth point.
   static PlotLine mean_trace(const std::map<int, Outcome>& beds,
                              const std::vector<double> ForceTrace::*force) {
@@ -110,6 +112,8 @@ class Gallery {
       for (const auto& [bed, o] : beds) values.push_back((o.trace.*force)[i]);
       const Sample sample = sample_of(values);
       line.points.emplace_back((double(i) + 0.5) * ForceTrace::kStep_s, sample.mean);
+      const bool bar = i % kBarEvery == kBarEvery / 2 && std::isfinite(sample.deviation);
+      line.half_range.push_back(bar ? sample.deviation : NAN);
     }
     return line;
   }
@@ -213,12 +217,12 @@ void traction_opening_figure(Gallery& gallery) {
 
 }  // namespace
 
-std::vector<Figure> draw_figures(const Outcomes& outcomes, const std::set<Part>& parts) {
+std::vector<Figure> draw_figures(const Outcomes& outcomes) {
   Gallery gallery(outcomes);
-  if (parts.count(Part::kLoad) > 0) load_figures(gallery);
-  if (parts.count(Part::kOpening) > 0) opening_figure(gallery);
-  if (parts.count(Part::kTraction) > 0) traction_figures(gallery);
-  if (parts.count(Part::kTractionOpening) > 0) traction_opening_figure(gallery);
+  load_figures(gallery);
+  opening_figure(gallery);
+  traction_figures(gallery);
+  traction_opening_figure(gallery);
   return std::move(gallery.figures);
 }
 

@@ -1,11 +1,9 @@
 // The campaign's figures: the paper's numbers beside ours.
 #pragma once
 
-#include <set>
 #include <string>
 #include <vector>
 
-#include "tools/reproduce/cell.h"
 #include "tools/reproduce/outcome.h"
 
 namespace hoof::tools {
@@ -15,8 +13,8 @@ struct Figure {
   std::string svg;
 };
 
-/// Of the parts asked for, those of which anything was run. Lines: mean over the beds, bars: one
-/// standard deviation over the beds; dashed: the paper's numbers.
-std::vector<Figure> draw_figures(const Outcomes& outcomes, const std::set<Part>& parts);
+/// Those of which anything was run. Lines: mean over the beds, bars: one standard deviation over
+/// the beds; dashed: the paper's numbers.
+std::vector<Figure> draw_figures(const Outcomes& outcomes);
 
 }  // namespace hoof::tools

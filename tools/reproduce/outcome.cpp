@@ -103,7 +103,10 @@ Outcome read_outcome(bool traction, const fs::path& folder) {
       return o;
     }
     o.fx_peak_N = j.at("fx_peak_N"), o.fz_at_fx_peak_N = j.at("fz_at_fx_peak_N");
-    o.coefficient = j.at("traction_coefficient");
+    const auto& coefficient = j.at("traction_coefficient");
+    // Runs of before 2026-11-30 have 0 in place of null.
+    const bool carried = coefficient.is_number() && o.fz_at_fx_peak_N > 0;
+    o.coefficient = carried ? coefficient.get<double>() : Outcome::kNone;
   } catch (const nlohmann::json::exception& error) {
     throw UserError(file.string() + ": " + error.what());
   }

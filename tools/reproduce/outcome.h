@@ -25,8 +25,8 @@ struct Outcome {
   /// the stress under the gap between the toes over that under the foot.
   double high_pressure_share = kNone, support_area_ratio = kNone, gap_stress_ratio = kNone;
   double fx_peak_N = 0, fz_at_fx_peak_N = 0;  // at that instant
-  double coefficient = 0;
-  double fx_peak_s = 0;  // since first contact
+  double coefficient = 0;                     // NaN where nothing carries the foot then
+  double fx_peak_s = 0;                       // since first contact
   /// The greatest local maximum of Fx before that peak that stands out by kEarly of the peak from
   /// the valley between the two: its force over the peak's, its time; zero where there is none.
   double early_ratio = 0, early_s = 0;

@@ -7,10 +7,13 @@
 #include "tools/calibrate/paper_tables.h"
 #include "tools/calibrate/repose_table.h"
 #include "tools/run/csv_writer.h"
+#include "tools/run/progress_line.h"
 
 namespace hoof::tools {
 namespace fs = std::filesystem;
 namespace {
+
+constexpr double kHeap_core_s = 28;  // of 3000 grains, mean of a whole table 2 on a Xeon
 
 // Colour maps of fields, by the requirements that this project was given with the paper's numbers.
 constexpr std::array kFields = {14, 16, 20, 21, 24, 26, 27};
@@ -83,7 +86,10 @@ std::string table_plan(const std::string& name, const TableOptions& options) {
   std::string what = "hoof calibrate restitution";
   if (name == "table2") {
     what = std::to_string(options.heaps) + " heaps of " + std::to_string(options.grains) +
-           " grains of each of 13 combinations and of the calibrated one, hoof calibrate repose";
+           " grains of each of 13 combinations and of the calibrated one, hoof calibrate repose, "
+           "about " +
+           format_duration(kHeap_core_s * options.grains / 3000 * 14 * options.heaps) +
+           " of a core";
   } else if (name == "table4") {
     what = "hoof calibrate sliding";
   } else if (name == "table5") {

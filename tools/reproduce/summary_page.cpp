@@ -94,19 +94,20 @@ std::string table(const std::vector<Comparison>& rows) {
   html += "</tr>\n";
   std::string not_run;
   for (const Comparison& row : rows) {
-    if (!row.ours) {
+    if (row.judgement() == Judgement::kNotRun) {
       not_run += element("li", row.name) + "\n";
       continue;
     }
     const bool band = row.low != 0 || row.high != 0;
     const std::string unit = row.unit == "1" ? "" : " " + row.unit;
-    html += "<tr>" + element("td", row.name) + element("td", digits(row.paper) + unit) +
+    html += "<tr>" + element("td", row.name) +
+            element("td", std::isfinite(row.paper) ? digits(row.paper) + unit : "") +
             element("td", band ? digits(row.low) + " to " + digits(row.high) : "") +
-            element("td", digits(row.ours->mean) + unit) +
-            element("td", digits(row.ours->deviation)) +
-            element("td", std::to_string(row.ours->n)) + element("td", to_string(row.judgement())) +
-            element("td", to_string(row.standing)) + element("td", row.note) +
-            element("td", row.found()) +
+            element("td", row.ours ? digits(row.ours->mean) + unit : "") +
+            element("td", row.ours ? digits(row.ours->deviation) : "") +
+            element("td", std::to_string(row.ours ? row.ours->n : 0)) +
+            element("td", to_string(row.judgement())) + element("td", to_string(row.standing)) +
+            element("td", row.note) + element("td", row.found()) +
             element("td", in_short(row.cannot_tell),
                     " title=\"" + html_escape(row.cannot_tell_text()) + "\"") +
             "</tr>\n";
@@ -120,30 +121,37 @@ std::string table(const std::vector<Comparison>& rows) {
 
 std::string summary_page(const Campaign& campaign, const ReproduceOptions& options,
                          const std::vector<Comparison>& rows, const std::vector<Figure>& figures) {
-  int inside = 0, outside = 0, missing = 0;
+  int inside = 0, outside = 0, undefined = 0, missing = 0;
   for (const Comparison& row : rows) {
     if (row.standing != Standing::kPrediction) continue;
     inside += row.judgement() == Judgement::kInside ? 1 : 0;
     outside += row.judgement() == Judgement::kOutside ? 1 : 0;
     missing += row.judgement() == Judgement::kNotRun ? 1 : 0;
+    undefined += row.judgement() == Judgement::kUndefined ? 1 : 0;
   }
   const Outcomes outcomes = campaign.outcomes();
   std::size_t runs = 0;
   for (const auto& [condition, beds] : outcomes) runs += beds.size();
-  std::string body = element(
-      "p", std::to_string(runs) + " of " + std::to_string(campaign.cells().size()) + " runs, bed " +
-               options.ground.scale + ", terrain " + options.ground.terrain + ". Of the " +
-               std::to_string(inside + outside + missing) + " predictions " +
-               std::to_string(inside) + " are inside what is accepted, " + std::to_string(outside) +
-               " outside, " + std::to_string(missing) + " not run.");
+  const auto asked = std::count_if(campaign.cells().begin(), campaign.cells().end(),
+                                   [&](const Cell& cell) { return campaign.done(cell); });
+  std::string body =
+      element("p", std::to_string(runs) + " runs as the paper has them, bed " +
+                       options.ground.scale + ", terrain " + options.ground.terrain + "; of the " +
+                       std::to_string(campaign.cells().size()) + " that were last asked for " +
+                       std::to_string(asked) + " are done. Of the " +
+                       std::to_string(inside + outside + undefined + missing) + " predictions " +
+                       std::to_string(inside) + " are inside what is accepted, " +
+                       std::to_string(outside) + " outside, " + std::to_string(undefined) +
+                       " have no value, " + std::to_string(missing) + " were not run.");
   if (options.ground.terrain != "dem") {
     body += element("p", "Not on grains: this shows the campaign, and says nothing about sand.");
   }
-  body += element("p",
-                  "Lines: mean over the beds with one standard deviation; dashed: the paper's "
-                  "numbers, which are simulations too. A prediction is a target that nothing of "
-                  "ours was set on; an input one that the geometry, which the paper does not give, "
-                  "was chosen by. What a bed cannot tell stands with its numbers in summary.csv.");
+  body += element(
+      "p",
+      "Lines: mean over the beds with one standard deviation; dashed: the paper's "
+      "numbers, which are simulations too. A prediction is a target that nothing of "
+      "ours was set on; an input one that something the paper does not give was chosen "
+      "by, as its note says. What a bed cannot tell stands with its numbers in summary.csv.");
   for (const auto& [foot, hash] : campaign.geometry_hashes()) {
     body += element("p", "Geometry of " + foot + ": SHA-256 " + hash);
   }

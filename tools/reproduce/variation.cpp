@@ -12,24 +12,53 @@ void append(std::vector<std::string>& to, const std::vector<std::string>& more) 
   to.insert(to.end(), more.begin(), more.end());
 }
 
-/// Grains over those of the preset, with the step that they need. An exchange interval of 25 us is
-/// a whole number of steps.
-Variation grains(const std::string& name, double factor, const std::vector<std::string>& settings) {
-  const sim::BedSettings bed = read_run_settings("sinkage", settings).bed;
-  const double scale = std::round(1e6 * factor * bed.grain_scale) / 1e6;  // 2.88, not 2.8800...03
-  Variation v{.name = name,
-              .kind = "grain size",
-              .what = "grains " + format_number(factor) + " times as large, " +
-                      format_number(scale) + " times the paper's"};
-  v.of_all = {"bed.grain_scale_ratio=" + format_number(scale)};
+sim::BedSettings bed_of(const CampaignSettings& settings, const std::string& kind) {
+  return read_run_settings(kind, settings.ground_of(kind)).bed;
+}
+
+double grain_scale(const sim::BedSettings& bed, double factor) {
+  return std::round(1e6 * factor * bed.grain_scale) / 1e6;  // 2.88, not 2.8800...03
+}
+
+/// Grains `factor` times as large, with the step that they need. An exchange interval of 25 us is a
+/// whole number of steps.
+std::vector<std::string> scaled(const sim::BedSettings& bed, double factor) {
+  std::vector<std::string> all = {"bed.grain_scale_ratio=" +
+                                  format_number(grain_scale(bed, factor))};
   if (factor < 1) {
     constexpr double kPerExchange = 40;
     const double steps = std::ceil(bed.steps_per_ms / factor / kPerExchange) * kPerExchange;
     const double settling = std::ceil(bed.settling_steps_per_ms / factor);
-    v.of_all.push_back("bed.steps_per_ms=" + format_number(steps));
-    v.of_all.push_back("bed.settling_steps_per_ms=" + format_number(settling));
+    all.push_back("bed.steps_per_ms=" + format_number(steps));
+    all.push_back("bed.settling_steps_per_ms=" + format_number(settling));
   }
+  return all;
+}
+
+Variation grains(const std::string& name, double factor, const CampaignSettings& settings) {
+  const sim::BedSettings sinkage = bed_of(settings, "sinkage");
+  const sim::BedSettings traction = bed_of(settings, "traction");
+  const double scale = grain_scale(sinkage, factor), other = grain_scale(traction, factor);
+  Variation v{.name = name,
+              .kind = "grain size",
+              .what = "grains " + format_number(factor) + " times as large, " +
+                      format_number(scale) + " times the paper's"};
+  if (other != scale) v.what += ", under a traction " + format_number(other) + " times";
+  v.of_sinkage = scaled(sinkage, factor);
+  v.of_traction = scaled(traction, factor);
   return v;
+}
+
+Variation twice_as_deep(const CampaignSettings& settings) {
+  const auto deep = [&](const std::string& kind) {
+    return std::vector<std::string>{"bed.depth_mm=" +
+                                    format_number(2e3 * bed_of(settings, kind).depth_m)};
+  };
+  return {.name = "deep-bed",
+          .kind = "box",
+          .what = "a bed twice as deep: the floor carries less",
+          .of_sinkage = deep("sinkage"),
+          .of_traction = deep("traction")};
 }
 
 Variation valley(const std::string& name, const ValleyPoint& p) {
@@ -64,7 +93,7 @@ std::vector<std::string> Variation::changes(const Cell& cell) const {
   return all;
 }
 
-std::vector<Variation> claim_variations(const std::vector<std::string>& settings) {
+std::vector<Variation> claim_variations(const CampaignSettings& settings) {
   // The ranges that sim/config/feet state.
   std::vector<Variation> all = {
       {.name = "short-spines",
@@ -90,19 +119,15 @@ std::vector<Variation> claim_variations(const std::vector<std::string>& settings
   return all;
 }
 
-std::vector<Variation> all_variations(const std::vector<std::string>& settings) {
+std::vector<Variation> all_variations(const CampaignSettings& settings) {
   std::vector<Variation> all = claim_variations(settings);
-  const double depth_mm = 1e3 * read_run_settings("sinkage", settings).bed.depth_m;
   const std::vector<Variation> more = {
       {.name = "loose-sand",
        .kind = "packing",
        .what = "all friction acts while the grains fall: a solid share of 0.56 for 0.60 (the paper "
                "does not say how its bed was packed)",
        .of_all = {"bed.packing_rolling_friction=0.34"}},
-      {.name = "deep-bed",
-       .kind = "box",
-       .what = "a bed twice as deep: the floor carries less",
-       .of_all = {"bed.depth_mm=" + format_number(2 * depth_mm)}},
+      twice_as_deep(settings),
       {.name = "elastic-cap",
        .kind = "law",
        .what = "friction capped by mu times the elastic part of the normal force, as the paper "

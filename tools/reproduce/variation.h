@@ -30,10 +30,10 @@ struct ValleyPoint {
 const std::vector<ValleyPoint>& valley_points();
 
 /// Those that the paper's claims are judged over: geometry, grain size and calibration.
-/// @param settings of every run: grain size, time step and depth are changed from theirs
-std::vector<Variation> claim_variations(const std::vector<std::string>& settings);
+/// @param settings of the runs: grain size, time step and depth are changed from theirs
+std::vector<Variation> claim_variations(const CampaignSettings& settings);
 /// These, and what else may be why a number is not the paper's: packing, law, box, load, path.
-std::vector<Variation> all_variations(const std::vector<std::string>& settings);
+std::vector<Variation> all_variations(const CampaignSettings& settings);
 
 /// Of the same, for the command line: no settings need be read.
 const std::vector<std::string>& claim_variation_names();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tools/experiment/bench.h"
+#include "tools/experiment/foot_plan.h"
 #include "tools/study/statistics.h"
 #include "tools/study/study_bench.h"
 
@@ -92,7 +93,7 @@ class BoxStudy {
   /// In walls, as the experiments.
   void add_foot(double scale) {
     const sim::Foot& foot = bench_.settings().foot;
-    const Eigen::Vector2d print = footprint_m(foot, 0);
+    const Eigen::Vector2d print = foot_plan_m(foot, 0).sizes();
     const Indenter plain = make_foot(foot, 0, false);
     const auto box = [&](double factor, double depth_mm) {
       // Whole centimetres.

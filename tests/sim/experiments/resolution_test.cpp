@@ -82,6 +82,29 @@ TEST_CASE("a box too small for the foot is named before the run, with key and bo
   CHECK(box_warnings(bed, kFootX_m, kFootY_m).size() == 1);
 }
 
+TEST_CASE(
+    "a pulled foot needs a grain's width before each end wall, and a wedge's to be undisturbed") {
+  BedSettings bed = bed_of_4_mm();
+  const double reach_m = 0.18, grain_m = bed.largest_diameter_m();
+  CHECK(least_length_m(bed, reach_m) == Approx(2 * (0.18 + grain_m)));
+  // The middle 5 mm deep, the ends 30: 61 mm of wedge, 2 x (180 + 61.2).
+  const StanceEllipse path{.half_length_m = 0.1, .half_height_m = 0.02, .centre_height_m = 0.015};
+  bed.box_length_m = 0.482;
+  CHECK_THAT(wall_warning(bed, reach_m, path),
+             Catch::StartsWith("the box is small for this foot: bed.box_length_mm = 482, should be "
+                               "483; the foot pushes sand against an end wall"));
+  bed.box_length_m = 0.483;
+  CHECK(wall_warning(bed, reach_m, path) == "");
+  const StanceEllipse deeper{.half_length_m = 0.1, .half_height_m = 0.02, .centre_height_m = 0.014};
+  CHECK(wall_warning(bed, reach_m, deeper) != "");
+  bed.periodic_sides = true;  // no wall
+  CHECK(wall_warning(bed, reach_m, deeper) == "");
+  // In the air all the way: only the reach itself counts.
+  const StanceEllipse high{.half_length_m = 0.1, .half_height_m = 0.02, .centre_height_m = 0.1};
+  bed.periodic_sides = false, bed.box_length_m = 0.361;
+  CHECK(wall_warning(bed, reach_m, high) == "");
+}
+
 TEST_CASE("the nearest spines count: two staggered rows are half a pitch apart") {
   FootGeometry foot = fine_foot();
   foot.spines.middle_pitch_m = 0.1;

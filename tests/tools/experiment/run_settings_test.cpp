@@ -56,6 +56,13 @@ TEST_CASE("what is wrong with a setting is one line with origin, key, value and 
        {"experiment.toe_deg=55"},
        "--set: experiment.toe_deg = 55: must be a number from 0.0 to 40.0 deg"},
       {"traction",
+       {"bed.box_length_mm=380", "bed.grain_scale_ratio=0.5",
+        "experiment.ellipse_half_length_mm=110"},
+       "--set: bed.box_length_mm = 380: must be at least 402 for this traction: the ends of the "
+       "foot "
+       "go 198 mm to either side, and between them and the end walls a grain must fit; "
+       "bed.box_length_mm=530 is the paper's"},
+      {"traction",
        {"experiment.toe_deg=40.5"},
        "--set: experiment.toe_deg = 40.5: must be a number from 0.0 to 40.0 deg"},
       {"sinkage",
@@ -82,6 +89,26 @@ TEST_CASE("what is wrong with a setting is one line with origin, key, value and 
        "--set: experiment.cycles = 0: must be a whole number from 1 to 100"},
   };
   for (const Case& c : cases) CHECK(refusal(c.experiment, c.set) == c.line);
+}
+
+TEST_CASE("a foot that would be pulled against an end wall is refused, as it measures the wall") {
+  // 100 + 87.5 mm to either side and 9.6 mm of the largest grain, twice.
+  CHECK_THAT(
+      refusal("traction", {"use.bed=medium"}),
+      Catch::Contains("beds/medium.toml:") &&
+          Catch::EndsWith(": bed.box_length_mm = 320: must be at least 395 for this traction: "
+                          "the ends of the foot go 188 mm to either side, and between them "
+                          "and the end walls a grain must fit; bed.box_length_mm=530 is the "
+                          "paper's"));
+  const auto length = [](const std::string& mm) {
+    return refusal("traction", {"use.bed=medium", "bed.box_length_mm=" + mm});
+  };
+  CHECK(length("394") != "not refused");
+  CHECK(length("395") == "not refused");
+  // No wall, no grains, no path.
+  CHECK(refusal("traction", {"use.bed=medium", "bed.sides=\"periodic\""}) == "not refused");
+  CHECK(refusal("traction", {"use.bed=medium", "experiment.terrain=rft"}) == "not refused");
+  CHECK(refusal("sinkage", {"use.bed=medium"}) == "not refused");
 }
 
 TEST_CASE("a mesh that is missing or open is refused with its name and place") {

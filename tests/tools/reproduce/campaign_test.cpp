@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <chrono>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
@@ -109,6 +110,50 @@ TEST_CASE("reproduce: killed at any moment the same command goes on, to the same
     const Outcome more = run_program(campaign(cut, {"--plan"}, "2"));
     CHECK_THAT(more.output, Catch::Contains("12 runs, 6 done"));
   }
+}
+
+TEST_CASE("reproduce: the summary is of the folder, whatever part of it a call is about") {
+  const ScratchFolder scratch;
+  const fs::path out = scratch.path() / "whole";
+  const auto part = [&](const std::string& what, const std::string& beds) {
+    std::vector<std::string> arguments = campaign(out, {}, beds);
+    arguments[1] = what;
+    return run_program(arguments).status;
+  };
+  const auto targets = [&] {
+    std::map<std::string, std::string> results;
+    const auto summary = nlohmann::json::parse(read_file(out / "summary.json"));
+    for (const auto& t : summary["targets"]) {
+      results[t["target"]] = t["result"];
+    }
+    return results;
+  };
+  const std::string depth = "sinkage-traditional-40kg-0.1m_s",
+                    roll = "table5, roll down an incline";
+  REQUIRE(part("load", "2") == 0);
+  const std::string sunk = targets().at(depth);
+  CHECK(sunk != "not run");
+  CHECK(targets().at(roll) == "not run");
+  REQUIRE(part("table5", "2") == 0);
+  REQUIRE(part("traction", "2") == 0);
+  const auto both = targets();
+  CHECK(both.at(depth) == sunk);
+  CHECK(both.at("traction-bionic-toe0-0.45Hz, Fx peak") != "not run");
+  CHECK(both.count(roll) == 0);
+  CHECK(both.at("table5, S2(mu_r), largest difference to table 5") == "inside");
+  for (const char* figure : {"sinkage-load-0.1m_s.svg", "traction-fx.svg"}) {
+    CHECK(fs::exists(out / "figures" / figure));
+  }
+  const auto beds = [&] {
+    const auto summary = nlohmann::json::parse(read_file(out / "summary.json"));
+    for (const auto& t : summary["targets"]) {
+      if (t["target"] == depth) return t["ours"]["beds"].get<int>();
+    }
+    return 0;
+  };
+  CHECK(beds() == 2);
+  REQUIRE(part("traction", "1") == 0);  // of the beds that are asked about
+  CHECK(beds() == 1);
 }
 
 TEST_CASE("reproduce: told to stop, runs at once stop too, and nothing is left half-written") {

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <set>
 
+#include "sim/experiments/resolution.h"
 #include "tools/experiment/run_settings.h"
 #include "tools/reproduce/campaign.h"
 #include "tools/reproduce/ground.h"
@@ -60,6 +61,25 @@ TEST_CASE("ground: bench is a night of two cores, and its step is said to every 
   CHECK(step_s(paper) == Approx(2.8e-6).epsilon(0.01));
 }
 
+TEST_CASE("ground: a foot that is pulled has room before the walls, on bench in grains of medium") {
+  for (const char* bed : {"demo", "medium", "bench", "paper"}) {
+    INFO(bed);
+    const Ground ground{bed, "dem"};
+    const auto run = read_run_settings("traction", ground.settings().of("traction"));
+    CHECK(hoof::sim::wall_warning(run.bed, reach_m(run), run.traction.ellipse) == "");
+  }
+  const auto tree = [](const char* bed) {
+    return read_run_settings("traction", Ground{bed, "dem"}.settings().of("traction")).tree;
+  };
+  CHECK(settings_hash(tree("bench")) == settings_hash(tree("medium")));
+  // The user has the last word there too.
+  CampaignSettings finer = Ground{"bench", "dem"}.settings();
+  finer.asked = {"bed.grain_scale_ratio=1", "bed.steps_per_ms=180"};
+  const auto asked = read_run_settings("traction", finer.of("traction")).bed;
+  CHECK(asked.grain_scale == 1);
+  CHECK(asked.box_length_m == Approx(0.53));
+}
+
 TEST_CASE("ground: a traction knows no rest, and what is asked for counts last") {
   CampaignSettings settings = Ground{"bench", "dem"}.settings();
   CHECK_NOTHROW(read_run_settings("traction", settings.of("traction")));
@@ -67,7 +87,8 @@ TEST_CASE("ground: a traction knows no rest, and what is asked for counts last")
   // Variations are of the bed: they must not stumble over what a traction alone knows.
   settings.asked = {"experiment.cycles=2", "bed.depth_mm=80"};
   CHECK_THROWS(read_run_settings("sinkage", settings.of("sinkage")));
-  CHECK(read_run_settings("sinkage", settings.of_both()).bed.depth_m == Approx(0.08));
+  CHECK(read_run_settings("sinkage", settings.ground_of("sinkage")).bed.depth_m == Approx(0.08));
+  CHECK(read_run_settings("traction", settings.ground_of("traction")).bed.depth_m == Approx(0.08));
   // What the name of a run says is so, whatever the ground and the user say of all.
   Cell finer = cell_of("sinkage-bionic-toe0-10kg-0.1m_s");
   finer.variation = "fine-grains", finer.changes = {"bed.steps_per_ms=240"};

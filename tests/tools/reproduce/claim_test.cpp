@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <map>
 #include <random>
 #include <set>
 
@@ -10,6 +11,7 @@
 #include "tools/experiment/run_settings.h"
 #include "tools/reproduce/cell.h"
 #include "tools/reproduce/claims_report.h"
+#include "tools/reproduce/ground.h"
 #include "tools/reproduce/paper.h"
 #include "tools/reproduce/run_store.h"
 #include "tools/reproduce/variation.h"
@@ -68,7 +70,7 @@ TEST_CASE("a claim holds where each interval excludes the bound, paired on the b
   const std::vector<double> paper = {13.0, 11.73, 11.5, 11.0, 11.65};
   CHECK(find(best, openings(paper, 0.002)) == Finding::kHolds);
   // Beds that differ fourfold do not matter: each run is compared on its own bed.
-  CHECK(weigh(best.contrasts[0], openings(paper, 0))->sample.mean == Approx(11.0 / 13.0));
+  CHECK(weigh(best.contrasts[0], openings(paper, 0))->mean() == Approx(11.0 / 13.0));
   CHECK(weigh(best.contrasts[0], openings(paper, 0))->sample.confidence == Approx(0).margin(1e-9));
   // Effect the other way, effect lost in scatter, one better opening of four.
   CHECK(find(best, openings({11, 12, 12, 13, 12}, 0.002)) == Finding::kFails);
@@ -123,13 +125,53 @@ TEST_CASE("claims upward and by a bound that is not one") {
   }
   CHECK(find(raise, outcomes) == Finding::kHolds);
   // 1 to 1.08 by a mean of 1.04: 7.7 %.
-  CHECK(weigh(claim("T-flat").contrasts[0], outcomes)->sample.mean == Approx(0.08 / 1.04));
+  CHECK(weigh(claim("T-flat").contrasts[0], outcomes)->mean() == Approx(0.08 / 1.04));
   CHECK(find(claim("T-flat"), outcomes) == Finding::kHolds);
   CHECK(find(claim("T-best-at-40"), outcomes) == Finding::kHolds);
   for (auto& [bed, run] : outcomes["traction-bionic-toe40-1.12Hz"]) run.coefficient *= 1.05;
   CHECK(find(claim("T-flat"), outcomes) == Finding::kFails);
   for (auto& [bed, run] : outcomes["traction-bionic-toe0-0.45Hz"]) run.coefficient = 0.3;
   CHECK(find(raise, outcomes) == Finding::kFails);
+}
+
+TEST_CASE(
+    "ratios count by their logarithms: turned round they say the same, and stay above nothing") {
+  const Contrast& below = claim("30-best").contrasts[0];
+  Contrast above = below;
+  std::swap(above.conditions[0], above.conditions[1]);
+  above.below = false;
+  Outcomes outcomes = openings({10, 12, 12, 8, 12}, 0.3);
+  const auto one = weigh(below, outcomes), other = weigh(above, outcomes);
+  CHECK(one->low() > 0);
+  CHECK(one->mean() == Approx(1 / other->mean()));
+  CHECK(one->low() == Approx(1 / other->high()));
+  CHECK(one->margin(below) == Approx(other->margin(above)));
+  CHECK(holds(below, *one) == holds(above, *other));
+  // 0.5, 1, 2: the middle is 1, and t of two degrees of freedom times ln 2 / sqrt 3.
+  Outcomes three;
+  for (const auto& [bed, mm] : std::map<int, double>{{1, 5}, {2, 10}, {3, 20}}) {
+    three[below.conditions[0]][bed].sinkage_mm = mm;
+    three[below.conditions[1]][bed].sinkage_mm = 10;
+  }
+  CHECK(weigh(below, three)->mean() == Approx(1));
+  CHECK(weigh(below, three)->high() == Approx(std::exp(4.303 * std::log(2.0) / std::sqrt(3.0))));
+  // A depth of nothing has no logarithm.
+  three[below.conditions[0]][1].sinkage_mm = 0;
+  CHECK_FALSE(weigh(below, three)->logarithms);
+  CHECK(weigh(below, three)->mean() == Approx(1));
+  // Something over nothing is no evidence that it is less, and does not vanish either.
+  three[below.conditions[0]][1].sinkage_mm = 0.1, three[below.conditions[0]][2].sinkage_mm = 0.1;
+  CHECK(holds(below, *weigh(below, three)) == false);  // 20 over 10
+  three[below.conditions[0]][3].sinkage_mm = 0.1;
+  CHECK(holds(below, *weigh(below, three)));
+  three[below.conditions[1]][2].sinkage_mm = 0;
+  CHECK(weigh(below, three)->infinite == 1);
+  CHECK(weigh(below, three)->beds == std::vector<int>{1, 3});
+  CHECK_FALSE(holds(below, *weigh(below, three)));
+  // Nothing over nothing says nothing.
+  three[below.conditions[0]][2].sinkage_mm = 0;
+  CHECK(weigh(below, three)->infinite == 0);
+  CHECK(holds(below, *weigh(below, three)));
 }
 
 TEST_CASE("the interval misses a true null in one of twenty") {
@@ -206,17 +248,32 @@ TEST_CASE("variations: of geometry, grain size and valley, and what claims are n
   CHECK(varied(cell_of("traction-traditional-1.12Hz"), variations[0]).changes.empty());
   CHECK_FALSE(varied(cell_of("traction-traditional-1.12Hz"), variations[2]).changes.empty());
   for (const char* bed : {"demo", "medium", "bench", "paper"}) {
-    const std::vector<std::string> settings = {std::string("use.bed=") + bed};
-    const auto plain = read_run_settings("sinkage", settings).bed;
-    for (const Variation& v : all_variations(settings)) {
-      std::vector<std::string> all = settings;
-      all.insert(all.end(), v.of_all.begin(), v.of_all.end());
-      const auto changed = read_run_settings("sinkage", all).bed;
-      // A step of no larger share of the smallest grain's Rayleigh time, which goes with its size.
-      CHECK(changed.step_s() / changed.grain_scale <= plain.step_s() / plain.grain_scale * 1.001);
-      CHECK(changed.settling_step_s() / changed.grain_scale <=
-            plain.settling_step_s() / plain.grain_scale * 1.001);
-      CHECK(changed.steps_per_ms % 40 == 0);
+    const CampaignSettings settings = Ground{bed, "dem"}.settings();
+    for (const std::string kind : {"sinkage", "traction"}) {
+      const auto plain = read_run_settings(kind, settings.of(kind)).bed;
+      for (const Variation& v : all_variations(settings)) {
+        INFO(bed << " " << kind << " " << v.name);
+        std::vector<std::string> all = settings.of(kind);
+        all.insert(all.end(), v.of_all.begin(), v.of_all.end());
+        const auto& own = kind == "sinkage" ? v.of_sinkage : v.of_traction;
+        all.insert(all.end(), own.begin(), own.end());
+        const RunSettings run = read_run_settings(kind, all);
+        const auto& changed = run.bed;
+        // A step of no larger share of the smallest grain's Rayleigh time, which goes with its
+        // size.
+        CHECK(changed.step_s() / changed.grain_scale <= plain.step_s() / plain.grain_scale * 1.001);
+        CHECK(changed.settling_step_s() / changed.grain_scale <=
+              plain.settling_step_s() / plain.grain_scale * 1.001);
+        // A whole number of steps between two exchanges with the foot.
+        const double steps = run.coupling.exchange_s / changed.step_s();
+        CHECK(steps == Approx(std::round(steps)).epsilon(1e-12));
+        // Of what this kind stands on, not of the other's.
+        const double times = changed.grain_scale / plain.grain_scale;
+        CHECK(times == Approx(v.name == "fine-grains"     ? 0.8
+                              : v.name == "coarse-grains" ? 1.25
+                                                          : 1));
+        CHECK(changed.depth_m / plain.depth_m == Approx(v.name == "deep-bed" ? 2 : 1));
+      }
     }
   }
 }
@@ -229,7 +286,7 @@ TEST_CASE("a reading by which a claim is otherwise is told below the table, and 
                         Finding finding) {
     ClaimUnder u;
     u.variation = name, u.kind = kind, u.finding = finding;
-    u.evidence = {Evidence{sample_of({mean, mean}), {1, 2}}};
+    u.evidence = {Evidence{sample_of({mean, mean}), false, {1, 2}}};
     u.runs = {{}};
     return u;
   };
@@ -243,6 +300,32 @@ TEST_CASE("a reading by which a claim is otherwise is told below the table, and 
                                                         "0.5)\n"));
   judged.under.back() = under("sole-depth", "reading", 1.5, Finding::kFails);
   CHECK_THAT(claims_text({judged}), !Catch::Contains("Otherwise by"));
+}
+
+TEST_CASE("the weakest contrast is told: by interval, of one bed only where there is no other") {
+  const auto contrast = [](const char* name) {
+    return Contrast{name, {"a", "b"}, [](const std::vector<Outcome>&) { return 0.0; }};
+  };
+  const Claim two{"two", "less", {contrast("first"), contrast("second"), contrast("third")}};
+  const auto evidence = [](const std::vector<double>& values) {
+    std::vector<int> beds;
+    for (std::size_t i = 0; i < values.size(); ++i) beds.push_back(int(i) + 1);
+    return Evidence{sample_of(values), false, beds};
+  };
+  ClaimUnder base;
+  base.variation = "base", base.runs = {{}, {}, {}};
+  JudgedClaim judged{&two, Verdict::kUnsupported, {}};
+  base.evidence = {evidence({0.5, 0.6}), evidence({1.5, 1.6}), evidence({9})};
+  judged.under = {base};
+  CHECK_THAT(claims_text({judged}), Catch::Contains("| two   | unsupported | second "));
+  judged.under[0].evidence = {evidence({0.5}), evidence({1.5}), evidence({0.9})};
+  CHECK_THAT(claims_text({judged}), Catch::Contains("| two   | unsupported | second "));
+  judged.under[0].evidence = {evidence({0.5}), {}, evidence({0.9})};
+  CHECK_THAT(claims_text({judged}), Catch::Contains("| two   | unsupported | third "));
+  judged.under[0].evidence = {evidence({0.5, 0.6}), evidence({1.5, 1.6}), evidence({0.2, 0.3})};
+  judged.under[0].evidence[2]->infinite = 1;
+  CHECK_THAT(claims_text({judged}),
+             Catch::Contains("| third ") && Catch::Contains("over nothing on 1 more beds"));
 }
 
 TEST_CASE("the valley's points have the paper's angle of repose, and are far from each other") {
