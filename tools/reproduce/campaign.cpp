@@ -4,6 +4,7 @@
 #include <set>
 #include <thread>
 
+#include "sim/config/config_error.h"
 #include "tools/experiment/run_settings.h"
 #include "tools/reproduce/manifest.h"
 #include "tools/run/errors.h"
@@ -32,7 +33,12 @@ Campaign::Campaign(const std::filesystem::path& folder, std::vector<Cell> cells,
   for (const Cell& cell : others) {
     if (planned_.count(cell.id()) == 1 || !std::filesystem::exists(store_.place(cell.id())))
       continue;
-    const PlannedRun run = plan(cell);
+    PlannedRun run;
+    try {
+      run = plan(cell);
+    } catch (const sim::ConfigError&) {
+      continue;  // what is asked of the others, as a traction's cycles, is no setting of this one
+    }
     if (!store_.has(run)) continue;
     planned_[cell.id()] = run;
     others_.push_back(cell);

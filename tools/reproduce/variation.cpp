@@ -2,7 +2,8 @@
 
 #include <cmath>
 
-#include "tools/experiment/run_settings.h"
+#include "sim/config/reader.h"
+#include "sim/terrain/bed_settings.h"
 #include "tools/run/csv_writer.h"
 
 namespace hoof::tools {
@@ -12,8 +13,11 @@ void append(std::vector<std::string>& to, const std::vector<std::string>& more) 
   to.insert(to.end(), more.begin(), more.end());
 }
 
+/// The bed alone: whether a kind of run that nobody asked for could be made on it is not asked
+/// here.
 sim::BedSettings bed_of(const CampaignSettings& settings, const std::string& kind) {
-  return read_run_settings(kind, settings.ground_of(kind)).bed;
+  const auto tree = sim::Settings::load_experiment(kind, settings.ground_of(kind));
+  return sim::read_bed(sim::Reader(tree).section("bed"));
 }
 
 double grain_scale(const sim::BedSettings& bed, double factor) {

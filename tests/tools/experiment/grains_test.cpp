@@ -110,7 +110,7 @@ TEST_CASE("the toes are held by control: half the gain gives way twice as far, n
   // A toe drive without friction: with the default's 0.48 Nm even a drive that does nothing holds
   // toes that feel 0.2 to 2 Nm here, and what is left over would not be the gain's work.
   const Strings stroke = {
-      "experiment.ellipse_half_length_mm=60", "experiment.ellipse_half_height_mm=30",
+      "experiment.ellipse_half_length_mm=54", "experiment.ellipse_half_height_mm=30",
       "experiment.ellipse_centre_height_mm=25", "drives.toe.coulomb_friction_Nm=0",
       "drives.toe.viscous_friction_Nm_s_rad=0"};
   const auto run = [&stroke](const Strings& gains) {
