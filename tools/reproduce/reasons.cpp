@@ -8,6 +8,8 @@
 namespace hoof::tools {
 namespace {
 
+const std::string kAndSole = std::string(" + ") + kSoleReading;
+
 const Comparison* find(const std::vector<Comparison>& rows, const std::string& name) {
   for (const Comparison& row : rows) {
     if (row.name == name) return &row;
@@ -50,7 +52,7 @@ Altered sole_reading(const Outcomes& base) {
 
 Altered with_sole_reading(const Altered& change) {
   Altered both = change;
-  both.kind += " and reading", both.name += std::string(" + ") + kSoleReading;
+  both.kind += " and reading", both.name += kAndSole;
   both.what += std::string("; ") + kSoleReading;
   both.with = read_by_sole(change.with);
   both.both = true;
@@ -72,6 +74,11 @@ void try_changes(std::vector<Comparison>& rows, const std::vector<Altered>& chan
       const bool known = std::any_of(row.tried.begin(), row.tried.end(),
                                      [&](const Tried& t) { return same(t.with, *changed->ours); });
       if (change.both && known) continue;
+      // Of runs that the change is none of the reading alone speaks.
+      const bool counts = std::any_of(row.tried.begin(), row.tried.end(), [&](const Tried& t) {
+        return change.name == t.name + kAndSole;
+      });
+      if (change.both && !counts) continue;
       row.tried.push_back({change.kind, change.name, change.what, *changed->ours, *unchanged->ours,
                            changed->judgement() == Judgement::kInside, change.both});
     }

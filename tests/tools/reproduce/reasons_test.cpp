@@ -131,6 +131,12 @@ TEST_CASE("reasons: a change and the reading by the sole together, where neither
   const Altered enough = altered("packing", "looser-sand", "looser", base, looser, {});
   CHECK(judged(base, {sole_reading(base), enough, with_sole_reading(enough)}).found() ==
         "inside by packing (looser-sand): 0.9 in place of 2 on 2 beds");
+  // A change of other runs on one of the beds is none of these, however they are read.
+  const Altered pull = altered("path", "other-path", "of a traction", base,
+                               {{"traction-bionic-toe0-1.12Hz", {{1, {}}}}}, base);
+  const Comparison alone = judged(base, {sole_reading(base), pull, with_sole_reading(pull)});
+  REQUIRE(alone.tried.size() == 1);
+  CHECK(alone.tried[0].name == kSoleReading);
   // Without spines both are the change alone.
   const Comparison plain =
       judged(base, {sole_reading(base), change, with_sole_reading(change)}, kPlain);
