@@ -171,9 +171,7 @@ std::string examples(Experiment experiment) {
          "  hoof traction\n"
          "  hoof traction --foot bionic-plain --frequency 1.12 --toe 20\n"
          "  hoof traction --drive prescribed --set bed.depth_mm=100 --threads 2\n"
-         "  hoof traction --bed medium --set bed.box_length_mm=530   finer grains; its own box is "
-         "too "
-         "short\n"
+         "  hoof traction --bed medium --set bed.box_length_mm=530   its own box is too short\n"
          "  hoof traction --terrain rigid --fault kind=torque_loss,target=hip,at_s=2.5,for_s=0.5\n"
          "  hoof traction --bed paper --out runs/paper --checkpoint-every 10\n"
          "  hoof traction --resume runs/paper.resume";

@@ -153,12 +153,13 @@ void refuse_walls_in_the_way(const RunSettings& run) {
   if (run.is_sinkage() || !run.on_grains() || run.bed.periodic_sides) return;
   const double least_m = sim::least_length_m(run.bed, reach_m(run));
   if (run.bed.box_length_m >= least_m) return;
+  constexpr double kPapers_m = 0.530;
   fail(*run.tree.find("bed.box_length_mm"), "bed.box_length_mm",
        "must be at least " + format_number(std::ceil(1e3 * least_m)) +
            " for this traction: the ends of the foot go " +
            format_number(std::round(1e3 * reach_m(run))) +
-           " mm to either side, and between them and the end walls a grain must fit; "
-           "bed.box_length_mm=530 is the paper's");
+           " mm to either side, and between them and the end walls a grain must fit" +
+           (least_m <= kPapers_m ? "; bed.box_length_mm=530 is the paper's" : ""));
 }
 
 void read_drives(const sim::Reader& root, RunSettings& run) {

@@ -105,6 +105,9 @@ TEST_CASE("a foot that would be pulled against an end wall is refused, as it mea
   };
   CHECK(length("394") != "not refused");
   CHECK(length("395") == "not refused");
+  // Where the paper's box is too short as well it is no advice.
+  CHECK_THAT(refusal("traction", {"experiment.ellipse_half_length_mm=200"}),
+             Catch::EndsWith("and the end walls a grain must fit"));
   // No wall, no grains, no path.
   CHECK(refusal("traction", {"use.bed=medium", "bed.sides=\"periodic\""}) == "not refused");
   CHECK(refusal("traction", {"use.bed=medium", "experiment.terrain=rft"}) == "not refused");
