@@ -4,12 +4,7 @@ set -u
 hoof=$1
 folder=$(mktemp -d "$PWD/can_utils.XXXXXX")
 trap 'rm -rf "$folder"' EXIT
-failed=0
-check() { # WHAT CONDITION...
-  what=$1
-  shift
-  if "$@"; then echo "ok: $what"; else echo "FAILED: $what"; failed=1; fi
-}
+. "$(dirname "$0")/check.sh"
 
 # Until the candump started last listens: the kernel's list of those who want every frame names it.
 await_listener() {

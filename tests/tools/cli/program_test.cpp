@@ -141,6 +141,22 @@ TEST_CASE("hoof version and hoof --version say what was built") {
   CHECK(flag.text == command.text);
 }
 
+TEST_CASE("a design with runs beyond its bounds says so, and how to keep them inside") {
+  // Rotatable with two factors: the axis is the square root of 2, here 0.45 -+ 0.35 * 1.41421.
+  const std::string factors = " --factor e=0.1:0.8 --factor mu_r=0.1:0.4";
+  const Outcome beyond = hoof_program("design central-composite" + factors);
+  CHECK(beyond.status == 0);
+  CHECK(beyond.text ==
+        "axial runs go beyond the bounds, to e -0.04497 and 0.945, mu_r 0.03787 and 0.4621; "
+        "--within keeps them inside\n");
+  const Outcome within = hoof_program("design central-composite --within" + factors);
+  CHECK(within.status == 0);
+  CHECK(within.text.empty());
+  const Outcome box = hoof_program("design box-behnken --factor mu_s=0.1:0.9" + factors);
+  CHECK(box.status == 0);
+  CHECK(box.text.empty());
+}
+
 TEST_CASE("a report is made again and its path printed") {
   const hoof::tests::ScratchFolder scratch;
   hoof::tests::write_synthetic_run(scratch.path(), 20);

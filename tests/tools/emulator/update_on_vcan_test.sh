@@ -1,5 +1,5 @@
 #!/bin/bash
-# update_on_vcan_test.sh RUN_WHERE_VCAN_IS WITH_VCAN HOOF EMULATE PACK BOARD_FOLDER
+# update_on_vcan_test.sh RUN_WHERE_VCAN_IS WITH_VCAN HOOF EMULATE PACK BOARD_FOLDER CHECKS
 #
 # The tools as people call them and the board's image, two programs on a real vcan0: parameters,
 # faults, a new image that the supply cuts off and one of a stranger's key. In the long form also the
@@ -7,7 +7,7 @@
 set -u
 
 if [ "$1" != --there ]; then # makes the images, then goes where vcan0 is
-  run=$1 with_vcan=$2 hoof=$3 emulate=$4 pack=$5 board=$6
+  run=$1 with_vcan=$2 hoof=$3 emulate=$4 pack=$5 board=$6 checks=$7
   folder=$(mktemp -d "$PWD/update_on_vcan.XXXXXX")
   trap 'rm -rf "$folder"' EXIT
   python3 "$pack" sign --image "$board/hoof-stm32f405.update" --key "$board/development.key" \
@@ -32,6 +32,7 @@ P
   limit=300
   [ -z "${HOOF_FULL_TESTS:-}" ] || limit=3600
   cp "$0" "$folder/test.sh"
+  cp "$checks" "$folder/check.sh"
   "$run" "$with_vcan" "$limit" --virtual-time-if-slow "$folder/test.sh" --there "$hoof" "$emulate" \
     "$board" "$folder"
   exit $?
@@ -42,12 +43,7 @@ kept=/tmp
 [ ! -w /dev/shm ] || kept=/dev/shm
 flash=$(mktemp -u "$kept/update_on_vcan.XXXXXX")
 trap 'rm -f "$flash"; [ -z "${foot:-}" ] || kill -KILL "$foot" 2>/dev/null' EXIT
-failed=0
-check() { # WHAT CONDITION...
-  what=$1
-  shift
-  if "$@"; then echo "ok: $what"; else echo "FAILED: $what"; failed=1; fi
-}
+. "$folder/check.sh"
 ask() { # FILE COMMAND...: what hoof says
   said="$folder/$1"
   shift
