@@ -11,7 +11,7 @@
 namespace hoof::tools {
 
 /// Evidence is counted down by this: samples that look independent share one model's errors, and
-/// a fitted integrator is not the plant. From the calibration on concealed plants (README).
+/// a fitted integrator is not the plant. From the calibration on concealed plants (README.md).
 inline constexpr double kTemperature = 3.0;
 /// No model is the plant: this much log likelihood per independent sample proves nothing.
 inline constexpr double kTolerated = 0.0025;

@@ -11,7 +11,7 @@
 
 namespace hoof::tools {
 
-/// Of the bed of the paper's size (README of the project, hoof bed).
+/// Of the bed of the paper's size (sim/dem/README.md, hoof bed).
 inline constexpr double kSolidShare = 0.598;
 /// Of quartz (Ji et al. 2026, material table).
 inline constexpr double kQuartz_kg_m3 = 2650;

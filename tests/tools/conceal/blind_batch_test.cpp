@@ -1,6 +1,6 @@
 // The tool before its examiner, in small: plants drawn, diagnosed by the program and graded. Six
 // cases are too few for shares: this holds that the whole way works and every case is answered.
-// Shares are the README's, from a batch that takes longer.
+// Shares are those of tools/conceal/README.md, from a batch that takes longer.
 #include <unistd.h>
 
 #include <catch2/catch.hpp>

@@ -56,7 +56,7 @@ TEST_CASE("k_t = e leaves the plate level: L = 2 e H; a second height then only 
   }
 }
 
-TEST_CASE("the paper's table: numbers of an independent fit (shared/paper/README)") {
+TEST_CASE("the paper's table: numbers of an independent fit") {
   const auto& laws = drop_laws();
   const DropFit before = fit_drop_law(laws[kPaperLaw], paper_drop_table());
   CHECK(before.rms_mm == Approx(3.76).margin(0.005));
