@@ -16,6 +16,7 @@
 #include "tools/reproduce/paper_numbers.h"
 #include "tools/reproduce/reasons.h"
 #include "tools/reproduce/summary_page.h"
+#include "tools/reproduce/target_chart.h"
 #include "tools/reproduce/table_targets.h"
 #include "tools/reproduce/variation.h"
 #include "tools/run/errors.h"
@@ -166,6 +167,8 @@ void write_summary(const Campaign& campaign, const ReproduceOptions& options,
   for (const Figure& figure : figures) {
     replace(fs::path("figures") / (figure.name + ".svg"), figure.svg);
   }
+  const std::string glance = draw_targets(rows);
+  if (!glance.empty()) replace(fs::path("figures") / "targets.svg", glance);
   replace("report.html", summary_page(campaign, options, rows, figures));
 }
 

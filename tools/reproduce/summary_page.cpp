@@ -6,6 +6,7 @@
 
 #include "tools/report/html.h"
 #include "tools/report/page.h"
+#include "tools/reproduce/target_chart.h"
 
 namespace hoof::tools {
 namespace {
@@ -85,10 +86,21 @@ std::string changes(const std::vector<Comparison>& rows) {
          (both.empty() ? "" : element("h2", "And depth counted by the sole") + both);
 }
 
+/// What a reader asks of one target: what to know, why, and what its beds cannot tell.
+std::string told_of(const Comparison& row) {
+  std::string text = row.note;
+  for (const std::string& more :
+       {row.found(),
+        row.cannot_tell.empty() ? "" : "the bed cannot tell: " + in_short(row.cannot_tell)}) {
+    if (!more.empty()) text += (text.empty() ? "" : ". ") + capitalised(more);
+  }
+  return capitalised(text);
+}
+
 std::string table(const std::vector<Comparison>& rows) {
-  std::string html = "<table>\n<tr>";
-  for (const char* head : {"target", "paper", "accepted", "ours", "deviation", "beds", "result",
-                           "standing", "note", "found", "the bed cannot tell"}) {
+  std::string html = "<table class=\"targets\">\n<tr>";
+  for (const char* head :
+       {"target", "paper", "accepted", "ours, mean +- deviation", "beds", "result", "standing"}) {
     html += element("th", head);
   }
   html += "</tr>\n";
@@ -100,16 +112,22 @@ std::string table(const std::vector<Comparison>& rows) {
     }
     const bool band = row.low != 0 || row.high != 0;
     const std::string unit = row.unit == "1" ? "" : " " + row.unit;
+    std::string ours = row.ours ? digits(row.ours->mean) : "";
+    if (row.ours && std::isfinite(row.ours->deviation))
+      ours += " +- " + digits(row.ours->deviation);
+    const std::string result = to_string(row.judgement());
     html += "<tr>" + element("td", row.name) +
             element("td", std::isfinite(row.paper) ? digits(row.paper) + unit : "") +
             element("td", band ? digits(row.low) + " to " + digits(row.high) : "") +
-            element("td", row.ours ? digits(row.ours->mean) + unit : "") +
-            element("td", row.ours ? digits(row.ours->deviation) : "") +
+            element("td", ours.empty() ? "" : ours + unit) +
             element("td", std::to_string(row.ours ? row.ours->n : 0)) +
-            element("td", to_string(row.judgement())) + element("td", to_string(row.standing)) +
-            element("td", row.note) + element("td", row.found()) +
-            element("td", in_short(row.cannot_tell),
-                    " title=\"" + html_escape(row.cannot_tell_text()) + "\"") +
+            element("td", result, " class=\"" + html_escape(result) + "\"") +
+            element("td", to_string(row.standing)) + "</tr>\n";
+    const std::string told = told_of(row);
+    if (told.empty()) continue;
+    html += "<tr class=\"told\">" +
+            element("td", told,
+                    " colspan=\"7\" title=\"" + html_escape(row.cannot_tell_text()) + "\"") +
             "</tr>\n";
   }
   html += "</table>\n";
@@ -148,16 +166,23 @@ std::string summary_page(const Campaign& campaign, const ReproduceOptions& optio
   }
   body += element(
       "p",
-      "Lines: mean over the beds with one standard deviation; dashed: the paper's "
-      "numbers, which are simulations too. A prediction is a target that nothing of "
-      "ours was set on; an input one that something the paper does not give was chosen "
-      "by, as its note says. What a bed cannot tell stands with its numbers in summary.csv.");
-  for (const auto& [foot, hash] : campaign.geometry_hashes()) {
-    body += element("p", "Geometry of " + foot + ": SHA-256 " + hash);
-  }
-  std::string drawn;
+      "A prediction is a target that nothing of ours was set on; an input one that something the "
+      "paper does not give was chosen by, as its note says. The paper's numbers are simulations "
+      "too. What a bed cannot tell stands with its numbers in summary.csv.");
+  const std::string glance = draw_targets(rows);
+  if (!glance.empty()) body += "<figure>" + glance + "</figure>\n";
+  std::string drawn = element("h2", "Figures") +
+                      element("p",
+                              "Lines: mean over the beds with one standard deviation; dashed: the "
+                              "paper's numbers.");
   for (const Figure& figure : figures) drawn += "<figure>" + figure.svg + "</figure>\n";
-  return make_page("The paper's experiments", body + drawn + table(rows) + changes(rows), "{}");
+  std::string shapes = element("h2", "Shapes of the feet");
+  for (const auto& [foot, hash] : campaign.geometry_hashes()) {
+    shapes += element("p", foot + ": SHA-256 " + hash, " class=\"note\"");
+  }
+  return make_page("The paper's experiments",
+                   body + element("h2", "Targets") + table(rows) + drawn + changes(rows) + shapes,
+                   "{}");
 }
 
 }  // namespace hoof::tools

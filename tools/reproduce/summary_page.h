@@ -11,8 +11,8 @@
 
 namespace hoof::tools {
 
-/// One self-contained file: what was run, how many targets came out inside, figures with the
-/// paper's numbers beside ours, and the table.
+/// One self-contained file: what was run, how many targets came out inside, all of them at a glance
+/// and in a table, figures with the paper's numbers beside ours, what changes make of each.
 std::string summary_page(const Campaign& campaign, const ReproduceOptions& options,
                          const std::vector<Comparison>& rows, const std::vector<Figure>& figures);
 
