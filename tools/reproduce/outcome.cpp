@@ -3,7 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/config/reader.h"
+#include "sim/config/settings.h"
+#include "sim/terrain/bed_grading.h"
+#include "sim/terrain/bed_settings.h"
 #include "tools/report/sample_table.h"
+#include "tools/reproduce/paper.h"
 #include "tools/run/errors.h"
 #include "tools/run/output_file.h"
 
@@ -55,6 +60,19 @@ void read_sand(const nlohmann::json& result, Outcome& o) {
   o.gap_stress_ratio = number("gap_over_foot_stress_ratio");
 }
 
+double grains_in_papers_box(const nlohmann::json& result, const fs::path& folder) {
+  const auto none = nlohmann::json::object();
+  const double grains = result.value("ground", none).value("grains", 0.0);
+  if (grains <= 0 || !fs::exists(folder / "settings.toml")) return Outcome::kNone;
+  const auto settings = sim::Settings::load_file(folder / "settings.toml");
+  sim::BedSettings bed = sim::read_bed(sim::Reader(settings).section("bed"));
+  bed.overfill = 1;
+  const double share = grains / double(sim::grains_to_pour(bed, 1));
+  bed.box_length_m = kPaperBox_m[0], bed.box_width_m = kPaperBox_m[1];
+  bed.depth_m = kPaperBox_m[2], bed.grain_scale = 1;
+  return double(sim::grains_to_pour(bed, share));
+}
+
 }  // namespace
 
 void find_timing(Outcome& o) {
@@ -100,6 +118,7 @@ Outcome read_outcome(bool traction, const fs::path& folder) {
       o.sinkage_mm = 1e3 * j.at("max_depth_m").get<double>();
       o.sole_sinkage_mm = 1e3 * j.at("max_sole_depth_m").get<double>();
       read_sand(j, o);
+      o.grains_in_papers_box = grains_in_papers_box(j, folder);
       return o;
     }
     o.fx_peak_N = j.at("fx_peak_N"), o.fz_at_fx_peak_N = j.at("fz_at_fx_peak_N");

@@ -30,6 +30,9 @@ struct Outcome {
   /// The greatest local maximum of Fx before that peak that stands out by kEarly of the peak from
   /// the valley between the two: its force over the peak's, its time; zero where there is none.
   double early_ratio = 0, early_s = 0;
+  /// As many grains the paper's box would hold, filled as its own, at the solid share of this whole
+  /// bed, in grains of the paper's size; NaN where there are none, as on fast soil.
+  double grains_in_papers_box = kNone;
   std::vector<std::string> refused = {};  // what its bed cannot tell, sim/experiments/resolution.h
   ForceTrace trace = {};
 

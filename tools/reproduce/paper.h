@@ -8,6 +8,10 @@
 
 namespace hoof::tools {
 
+/// Of its bed of sand: length, width, height of the filling; grains in it, 4 times real size.
+inline constexpr double kPaperBox_m[3] = {0.530, 0.420, 0.120};
+inline constexpr double kPaperBedGrains = 933059;
+
 struct PaperSinkage {
   std::string condition;  // as of Cell
   double sinkage_mm = 0;  // largest vertical displacement of the sole after contact

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "sim/config/settings.h"
 #include "tests/tools/run/scratch_folder.h"
 #include "tools/run/errors.h"
 #include "tools/run/output_file.h"
@@ -84,4 +85,25 @@ TEST_CASE("an outcome is read from a run's folder: time counts from first contac
   CHECK(standing.support_area_ratio == 0.6);
   CHECK(std::isnan(standing.gap_stress_ratio));  // closed toes have no gap
   CHECK_THROWS_AS(read_outcome(true, scratch.path()), UserError);
+}
+
+TEST_CASE("grains of a bed are told for the paper's box and the paper's size of grains") {
+  const hoof::tests::ScratchFolder scratch;
+  const auto of = [&](const char* bed, double grains) {
+    const std::vector<std::string> chosen = {std::string("use.bed=") + bed};
+    write_file(scratch.path() / "settings.toml",
+               hoof::sim::Settings::load_experiment("sinkage", chosen).to_toml());
+    write_file(scratch.path() / "result.json",
+               "{\"max_depth_m\": 0.0125, \"max_sole_depth_m\": 0.003, \"ground\": {\"grains\": " +
+                   std::to_string(grains) + "}}");
+    return read_outcome(false, scratch.path()).grains_in_papers_box;
+  };
+  // By volumes; grains of 1.5 times the size are 1.5 cubed fewer. Rounded twice to whole grains.
+  const double ratio = 530.0 * 420 * 120 / (320.0 * 220 * 100);
+  CHECK(of("bench", 238941) == Approx(238941 * ratio).epsilon(2e-5));
+  CHECK(of("medium", 70798) == Approx(70798 * 3.375 * ratio).epsilon(2e-5));
+  CHECK(of("paper", 912550) == Approx(912550).epsilon(2e-5));
+  CHECK(std::isnan(of("bench", 0)));
+  fs::remove(scratch.path() / "settings.toml");
+  CHECK(std::isnan(read_outcome(false, scratch.path()).grains_in_papers_box));
 }
