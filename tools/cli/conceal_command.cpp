@@ -60,7 +60,7 @@ void add_run(CLI::App& parent, Invocation& invocation) {
   command->footer(
       "Answers that are there stay: after Ctrl-C the same command goes on where it was.\n"
       "Example:\n"
-      "  hoof conceal run runs/sealed --answers runs/answers --program build/tools/cli/hoof");
+      "  hoof conceal run runs/sealed --answers runs/answers --program build/release/tools/cli/hoof");
   command->callback(
       [&invocation, options] { invocation.run = [options] { conceal::examine(*options); }; });
 }
