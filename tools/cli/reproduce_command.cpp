@@ -55,6 +55,12 @@ void add_reproduce_command(CLI::App& app, Invocation& invocation) {
       ->add_option("--vary-beds", options->variation_beds, "Beds of these, the first of --beds [2]")
       ->type_name("N")
       ->check(CLI::Range(1, 1000));
+  command
+      ->add_option("--reasons-from", options->reasons_from,
+                   "Folder of another campaign, as of coarser grains where changes are cheap: what "
+                   "it found of a target that is outside here stands beside it")
+      ->type_name("DIR")
+      ->check(CLI::ExistingDirectory);
   add_engine_options(*command, options->engine);
   command
       ->add_option("--set", options->settings,
@@ -82,6 +88,8 @@ void add_reproduce_command(CLI::App& app, Invocation& invocation) {
       "  hoof reproduce table3 table5\n"
       "  hoof reproduce load opening --vary all --vary-beds 1   why a number is not the paper's\n"
       "  hoof reproduce all --scale bench                     a night of two cores\n"
+      "  hoof reproduce all --scale bench --reasons-from runs/reproduce-medium   with what --vary "
+      "found there\n"
       "  hoof reproduce all --full --scale paper --engine slurm --at-once 64 --time 24:00:00 "
       "--wait\n"
       "  hoof reproduce all --terrain rft --beds 1      the chain in minutes, without grains");

@@ -439,6 +439,11 @@ std::string Comparison::found() const {
          told(*nearest);
 }
 
+std::string Comparison::reasons() const {
+  const std::string own = found();
+  return own + (own.empty() || elsewhere.empty() ? "" : "; ") + elsewhere;
+}
+
 std::string to_string(Judgement judgement) {
   switch (judgement) {
     case Judgement::kInside:

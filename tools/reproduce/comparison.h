@@ -40,6 +40,8 @@ struct Comparison {
   std::vector<std::string> cannot_tell = {};
   /// With what was changed, whether it is outside or not.
   std::vector<Tried> tried = {};
+  /// Of one that is outside: what another campaign found of the same target; empty: nothing.
+  std::string elsewhere = {};
 
   Judgement judgement() const;
   /// The sentences as one text.
@@ -48,6 +50,8 @@ struct Comparison {
   /// is none each with which the reading by the sole does, or what came nearest. Empty: inside, or
   /// nothing was tried.
   std::string found() const;
+  /// That, and what was found elsewhere.
+  std::string reasons() const;
 };
 
 std::string to_string(Judgement judgement);

@@ -13,11 +13,12 @@
 #include "tools/reproduce/comparison.h"
 #include "tools/reproduce/cost.h"
 #include "tools/reproduce/figures.h"
+#include "tools/reproduce/other_campaign.h"
 #include "tools/reproduce/paper_numbers.h"
 #include "tools/reproduce/reasons.h"
 #include "tools/reproduce/summary_page.h"
-#include "tools/reproduce/target_chart.h"
 #include "tools/reproduce/table_targets.h"
+#include "tools/reproduce/target_chart.h"
 #include "tools/reproduce/variation.h"
 #include "tools/run/errors.h"
 #include "tools/run/output_file.h"
@@ -67,7 +68,7 @@ Table table_of(const std::vector<Comparison>& rows, bool found) {
                                       to_string(row.standing),
                                       row.note,
                                       row.cannot_tell_text()};
-    if (found) cells.push_back(row.found());
+    if (found) cells.push_back(row.reasons());
     table.row(cells);
   }
   return table;
@@ -114,7 +115,7 @@ void write_summary(const Campaign& campaign, const ReproduceOptions& options,
     std::replace(text.begin(), text.end(), ',', ';');
   };
   for (Comparison& row : plain) {
-    without_commas(row.name), without_commas(row.note);
+    without_commas(row.name), without_commas(row.note), without_commas(row.elsewhere);
     for (std::string& sentence : row.cannot_tell) without_commas(sentence);
     for (Tried& t : row.tried) without_commas(t.what);
   }
@@ -142,6 +143,7 @@ void write_summary(const Campaign& campaign, const ReproduceOptions& options,
     r["result"] = to_string(row.judgement()), r["standing"] = to_string(row.standing);
     if (!row.note.empty()) r["note"] = row.note;
     if (!row.found().empty()) r["found"] = row.found();
+    if (!row.elsewhere.empty()) r["found_elsewhere"] = row.elsewhere;
     if (!row.cannot_tell.empty()) r["bed_cannot_tell"] = row.cannot_tell;
     for (const Tried& t : row.tried) {
       r["tried"].push_back({{"kind", t.kind},
@@ -312,6 +314,7 @@ void run_campaign(const ReproduceOptions& options) {
     try_changes(rows, changes(campaign, variations));
     const std::vector<Comparison> tables = table_targets(campaign.folder());
     rows.insert(rows.end(), tables.begin(), tables.end());
+    if (!options.reasons_from.empty()) ask_other_campaign(rows, options.reasons_from);
     write_summary(campaign, options, rows);
     return rows;
   };
@@ -327,9 +330,9 @@ void run_campaign(const ReproduceOptions& options) {
   }
   bool first = true;
   for (const Comparison& row : rows) {
-    if (row.found().empty()) continue;
+    if (row.reasons().empty()) continue;
     std::cout << (first ? "one thing changed; all of it in changes.csv and report.html\n" : "")
-              << "  " << row.name << ": " << row.found() << "\n";
+              << "  " << row.name << ": " << row.reasons() << "\n";
     first = false;
   }
   if (rows.size() < all) std::cout << all - rows.size() << " more targets were not run\n";

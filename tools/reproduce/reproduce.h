@@ -27,7 +27,9 @@ struct ReproduceOptions {
   Engine engine;
   std::vector<std::string> settings;  // "dotted.key=value" for every run
   std::filesystem::path out;          // empty: that of the ground
-  bool plan_only = false;             // says what is there and what is missing, runs nothing
+  /// Of a campaign whose changes tell of what this one misses; empty: none.
+  std::filesystem::path reasons_from;
+  bool plan_only = false;  // says what is there and what is missing, runs nothing
   bool quiet = false;
 
   std::filesystem::path folder() const { return out.empty() ? ground.folder() : out; }

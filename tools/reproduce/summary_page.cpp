@@ -90,7 +90,7 @@ std::string changes(const std::vector<Comparison>& rows) {
 std::string told_of(const Comparison& row) {
   std::string text = row.note;
   for (const std::string& more :
-       {row.found(),
+       {row.reasons(),
         row.cannot_tell.empty() ? "" : "the bed cannot tell: " + in_short(row.cannot_tell)}) {
     if (!more.empty()) text += (text.empty() ? "" : ". ") + capitalised(more);
   }
