@@ -39,6 +39,8 @@ void ask_other_campaign(std::vector<Comparison>& rows, const std::filesystem::pa
       const auto row = std::find_if(rows.begin(), rows.end(),
                                     [&](const Comparison& one) { return one.name == name; });
       if (row == rows.end() || row->judgement() != Judgement::kOutside) continue;
+      // The same runs on both say the same.
+      if (target.value("found", "") == row->found() && !row->found().empty()) continue;
       row->elsewhere = told(target, bed);
     }
   } catch (const nlohmann::json::exception& error) {

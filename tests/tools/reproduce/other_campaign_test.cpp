@@ -36,6 +36,16 @@ TEST_CASE("another campaign tells of what is outside here: inside there, or what
   CHECK(rows[1].reasons() == "on medium inside by load (block-load): 1.05 ...");
   // Nothing was found there, it is inside here, it was not run there, it is not known there.
   for (const std::size_t i : {2, 3, 4, 5}) CHECK(rows[i].reasons().empty());
+  // Runs that both have are told once.
+  rows[2].tried.push_back(
+      {"path", "deeper-path", "", Sample{.n = 1, .mean = 1.0}, Sample{.n = 1, .mean = 2.0}, true});
+  const std::string same = rows[2].found();
+  write_file(scratch.path() / "summary.json",
+             R"({"scale": "medium", "terrain": "dem", "targets": [
+  {"target": "c", "result": "outside", "found": ")" +
+                 same + R"("}]})");
+  ask_other_campaign(rows, scratch.path());
+  CHECK(rows[2].reasons() == same);
   // Beside what was found here.
   rows[1].tried.push_back(
       {"path", "deeper-path", "", Sample{.n = 1, .mean = 1.0}, Sample{.n = 1, .mean = 2.0}, true});
