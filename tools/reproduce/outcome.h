@@ -47,7 +47,7 @@ using Outcomes = std::map<std::string, std::map<int, Outcome>>;
 /// how far the spines went since they touched. The paper does not say which it means.
 Outcomes read_by_sole(const Outcomes& outcomes);
 
-/// @param traction its kind  @param folder of the run, with result.json and samples.csv
+/// @param traction its kind  @param folder of the run, with result.json, settings.toml and samples.csv
 /// @throws UserError where they do not read
 Outcome read_outcome(bool traction, const std::filesystem::path& folder);
 

@@ -355,6 +355,10 @@ void run_campaign(const ReproduceOptions& options) {
 }  // namespace
 
 void reproduce(const ReproduceOptions& options) {
+  if (!options.reasons_from.empty()) {  // a night is too late to say that it is none
+    std::vector<Comparison> nothing;
+    ask_other_campaign(nothing, options.reasons_from);
+  }
   for (const std::string& figure : options.figures) std::cout << about_figure(figure) << "\n";
   for (const std::string& table : options.tables) {
     if (options.plan_only) {

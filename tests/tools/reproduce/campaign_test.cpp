@@ -310,6 +310,16 @@ TEST_CASE("reproduce: a figure that cannot be drawn by its number is one line an
   CHECK(fs::exists(scratch.path() / "table5" / "report.html"));
 }
 
+TEST_CASE("reproduce: a folder of reasons that is no campaign's is told before anything is run") {
+  const ScratchFolder scratch;
+  const fs::path out = scratch.path() / "out", other = scratch.path() / "other";
+  fs::create_directories(other);
+  const Outcome none = run_program(campaign(out, {"--reasons-from", other.string()}));
+  CHECK(none.status == 2);
+  CHECK_THAT(none.errors, Catch::Contains((other / "summary.json").string()));
+  CHECK_FALSE(fs::exists(out));
+}
+
 TEST_CASE("reproduce: one campaign, one process") {
   const ScratchFolder scratch;
   const fs::path out = scratch.path() / "one";

@@ -3,20 +3,12 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
+#include "tests/tools/reproduce/occurrences.h"
 #include "tools/reproduce/paper.h"
 #include "tools/reproduce/paper_numbers.h"
 
 using namespace hoof::tools;
-
-namespace {
-
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t n = 0;
-  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
-  return n;
-}
-
-}  // namespace
+using hoof::tests::occurrences;
 
 TEST_CASE("figures: only of what was run, the paper's numbers dashed beside ours with bars") {
   CHECK(draw_figures({}).empty());
@@ -38,9 +30,9 @@ TEST_CASE("figures: only of what was run, the paper's numbers dashed beside ours
     INFO(figure.name);
     names.push_back(figure.name);
     CHECK(figure.svg.starts_with("<svg"));
-    CHECK(count(figure.svg, "stroke-dasharray") > 0);
-    CHECK(count(figure.svg, ", paper<") > 0);
-    CHECK(count(figure.svg, ", ours<") == count(figure.svg, ", paper<"));
+    CHECK(occurrences(figure.svg, "stroke-dasharray") > 0);
+    CHECK(occurrences(figure.svg, ", paper<") > 0);
+    CHECK(occurrences(figure.svg, ", ours<") == occurrences(figure.svg, ", paper<"));
   }
   CHECK(names == std::vector<std::string>{"sinkage-load-0.1m_s", "sinkage-load-0.4m_s",
                                           "sinkage-opening", "traction-coefficient", "traction-fx",
@@ -48,10 +40,10 @@ TEST_CASE("figures: only of what was run, the paper's numbers dashed beside ours
                                           "traction-fz-time-0.45Hz", "traction-fx-time-1.12Hz",
                                           "traction-fz-time-1.12Hz", "traction-opening"});
   // In the middle of ten points: the sixth, a bar for each of the three feet, and none of Fz.
-  CHECK(count(figures[6].svg, "<circle") == 3);
-  CHECK(count(figures[7].svg, "<circle") == 0);
+  CHECK(occurrences(figures[6].svg, "<circle") == 3);
+  CHECK(occurrences(figures[7].svg, "<circle") == 0);
   // Three feet, two loads each (the spined one has a third from the openings), a bar and mark each.
-  CHECK(count(figures[0].svg, "<circle") == 7);
+  CHECK(occurrences(figures[0].svg, "<circle") == 7);
   const Outcomes one = {
       {"sinkage-bionic-toe30-60kg-0.1m_s", outcomes["sinkage-bionic-toe30-60kg-0.1m_s"]}};
   CHECK(draw_figures(one).size() == 1);

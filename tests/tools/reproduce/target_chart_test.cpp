@@ -4,15 +4,12 @@
 #include <cmath>
 #include <regex>
 
+#include "tests/tools/reproduce/occurrences.h"
+
 using namespace hoof::tools;
+using hoof::tests::occurrences;
 
 namespace {
-
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t n = 0;
-  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
-  return n;
-}
 
 Comparison target(const char* name, double paper, double low, double high, double ours) {
   Comparison row;
@@ -49,8 +46,8 @@ TEST_CASE("targets at a glance: a mark where ours over the paper's is, the band 
   CHECK(number(line, "width") == Approx(2 * (two - one)).margin(0.11));
   // A decade either way is the width of the chart: log 2 of it from the middle.
   CHECK((two - one) / std::log10(2.0) == Approx((1010 - 460 - 20) / 2.0).margin(0.4));
-  CHECK(count(line_of(svg, "twice"), "#009e73") > 0);
-  CHECK(count(line_of(svg, "half &amp; less"), "#d55e00") > 0);
+  CHECK(occurrences(line_of(svg, "twice"), "#009e73") > 0);
+  CHECK(occurrences(line_of(svg, "half &amp; less"), "#d55e00") > 0);
 }
 
 TEST_CASE("targets at a glance: inputs are hollow, what is far off or nothing stands at its edge") {
@@ -59,13 +56,13 @@ TEST_CASE("targets at a glance: inputs are hollow, what is far off or nothing st
   const std::string svg =
       draw_targets({input, target("far", 1, 0.5, 2, 30), target("none", 1, 0.5, 2, 0),
                     target("bandless", 2, 0, 0, 3)});
-  CHECK(count(line_of(svg, "input"), "fill=\"#ffffff\"") == 1);
-  CHECK(count(line_of(svg, "bandless"), "class=\"band\"") == 0);
-  CHECK(count(line_of(svg, "bandless"), "#7a7a7a") > 0);
-  CHECK(count(svg, "class=\"beyond\"") == 2);
+  CHECK(occurrences(line_of(svg, "input"), "fill=\"#ffffff\"") == 1);
+  CHECK(occurrences(line_of(svg, "bandless"), "class=\"band\"") == 0);
+  CHECK(occurrences(line_of(svg, "bandless"), "#7a7a7a") > 0);
+  CHECK(occurrences(svg, "class=\"beyond\"") == 2);
   // Triangles that begin eight from their tips, which are at the right and the left edge.
-  CHECK(count(line_of(svg, "far"), "d=\"M982.0") == 1);
-  CHECK(count(line_of(svg, "none"), "d=\"M468.0") == 1);
+  CHECK(occurrences(line_of(svg, "far"), "d=\"M982.0") == 1);
+  CHECK(occurrences(line_of(svg, "none"), "d=\"M468.0") == 1);
 }
 
 TEST_CASE("targets at a glance: only what was run and what the paper has a number of") {
@@ -75,6 +72,6 @@ TEST_CASE("targets at a glance: only what was run and what the paper has a numbe
   CHECK(draw_targets({not_run, none, unknown}).empty());
   CHECK(draw_targets({}).empty());
   const std::string svg = draw_targets({not_run, none, target("run", 1, 0.5, 2, 1), unknown});
-  CHECK(count(svg, ">run<") == 1);
-  for (const char* name : {"not run", "no number", "unknown"}) CHECK(count(svg, name) == 0);
+  CHECK(occurrences(svg, ">run<") == 1);
+  for (const char* name : {"not run", "no number", "unknown"}) CHECK(occurrences(svg, name) == 0);
 }
